@@ -1,5 +1,5 @@
-// Changes of a finished mesh, by the core over an in-memory store: as many points again in
-// one change, beside the build of the first; and changes all over it, one after the other.
+// Changes of a finished mesh, by the core over an in-memory store: the same number of points again
+// in one change, compared with the first build; and successive changes all over it.
 #include "support/memory_host.hpp"
 
 #include <abacus/build.h>
@@ -38,7 +38,7 @@ public:
     void remove(std::size_t from, std::size_t to) { change(from, to, true); }
 
     std::size_t pages() const { return host_.pages.size(); }
-    /// Of all bytes in pages.
+    /// As a share of all bytes in pages.
     double fill() const {
         std::size_t bytes = 0;
         for (const auto &[key, page] : host_.pages) bytes += page.size;
@@ -97,7 +97,7 @@ template <int D> void Insert(benchmark::State &state) {
     }
 }
 
-/// Arguments: points of the mesh, points changed at a time, cache in MB. Ten times so many are
+/// Arguments: points of the mesh, points changed at a time, cache in MB. Ten times that many are
 /// deleted, and as many inserted.
 template <int D> void Exchange(benchmark::State &state) {
     const auto points = std::size_t(state.range(0)), some = std::size_t(state.range(1));

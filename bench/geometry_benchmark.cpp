@@ -21,7 +21,7 @@ template <int D> std::vector<Point<D>> random_points() {
     return points;
 }
 
-/// Points of a small integer grid: the filters fail on every other call.
+/// Points of a small integer grid: the filters fail on every second call.
 template <int D> std::vector<Point<D>> degenerate_points() {
     std::mt19937_64 engine(1);
     std::vector<Point<D>> points(count);

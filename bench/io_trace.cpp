@@ -1,19 +1,18 @@
-// io_trace: which pages a build reads and writes, and when: the traces of the dissertation's
-// §5.5, Figures 5.15 and 5.16.
+// io_trace: which pages a build reads and writes, and when: the traces of the dissertation's §5.5,
+// Figures 5.15 and 5.16.
 //
 //   io_trace DIMENSION FILE CACHE_MB
 //
-// Stages a file of raw points (see oracle_points) into a store in memory, then triangulates
-// them with a cache of CACHE_MB. Prints a line for each page that the core asks of its host
-// or hands to it meanwhile:
+// Stages a file of raw points (see oracle_points) into a store in memory, then triangulates them
+// with a cache of CACHE_MB. Prints a line for each page that the core meanwhile requests from its
+// host or passes to it:
 //
 //   SECONDS vertices|simplices read|write|erase BLOCK PLACE
 //
-// BLOCK is where a table's heap would have the page: within one transaction no space is used
-// again, so each version of a page gets the next block. PLACE is where the page begins: of
-// simplices on the curve, of vertices in the order of insertion; both from 0 to 1. SECONDS are
-// CPU time of the core alone. What happens to a request below the core is up to the server and
-// the file system.
+// BLOCK is the page's place in a table's heap: within one transaction no space is reused, so each
+// version of a page gets the next block. PLACE is where the page begins, from 0 to 1: on the curve
+// for simplices, in the order of insertion for vertices. SECONDS are CPU time of the core alone.
+// What happens to a request below the core depends on the server and the file system.
 #include "staged_file.hpp"
 #include "support/memory_host.hpp"
 
@@ -68,7 +67,7 @@ public:
     }
 
     const abacus_host &tracing() const { return tracing_; }
-    /// From now on requests are printed.
+    /// Prints all requests from now on.
     void start(const abacus_header &header) {
         spans_[ABACUS_SIMPLEX_PAGES] =
             double(std::uint64_t{1} << (header.facts.form.dimension == 2 ? 62 : 63));
@@ -79,7 +78,7 @@ public:
     }
 
 private:
-    /// Repeated points share the vertex table, but their pages are written at the end only.
+    /// Repeated points share the vertex table, but their pages are written only at the end.
     static constexpr const char *names[] = {"simplices", "vertices", "repeated"};
     struct Table {
         std::uint64_t size = 0;                                  // blocks

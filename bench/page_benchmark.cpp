@@ -1,8 +1,8 @@
-// Between pages and memory, a step at a time: checking a page and making its columns
-// readable (Decode), a block with its links out of a page (Load), a page out of a block
-// (Store), dropping blocks (Evict, of which those that changed are stored first), splitting
-// a full block (Split); and inserting points with a cache so large that none of these is
-// needed (Insert). All over a store in memory. Items are pages, blocks or points.
+// Between pages and memory, one step at a time: checking a page and making its columns readable
+// (Decode), making a block with its links from a page (Load) and a page from a block (Store),
+// dropping blocks (Evict; changed ones are stored first), splitting a full block (Split); and
+// inserting points with a cache so large that none of these is needed (Insert). All with a store in
+// memory. Items are pages, blocks or points.
 #include "uniform_mesh.hpp"
 
 #include <benchmark/benchmark.h>
@@ -30,7 +30,7 @@ template <int D> struct StoredMesh : UniformMesh<D> {
     }
 };
 
-/// Calls each(handle of one of its simplices) for every block, loaded if need be.
+/// Calls each(handle of one of its simplices) for every block, which is loaded if necessary.
 template <int D, class Each> void for_each_block(Cache<D> &cache, Each each) {
     for (Key key = first_key; !(key == end_key);) {
         Handle one = no_handle;
@@ -46,7 +46,7 @@ public:
         work();
         sum_ += std::chrono::steady_clock::now() - start;
     }
-    /// The same if work() returns true; else it counts for nothing.
+    /// The same if work() returns true; otherwise its time does not count.
     template <class Work> void add_if(Work work) {
         const auto start = std::chrono::steady_clock::now();
         if (work()) sum_ += std::chrono::steady_clock::now() - start;
@@ -106,9 +106,8 @@ template <int D> void Evict(benchmark::State &state) {
     state.SetItemsProcessed(std::int64_t(evicted));
 }
 
-/// Fills a block with simplices at random places, two at a time that are neighbours of one
-/// another across all facets, as a split needs links to follow; times the ends of the
-/// operations that split.
+/// Fills a block with simplices at random places. They come in pairs that are neighbours across all
+/// facets, since a split needs links to follow. Times the ends of the operations that split.
 template <int D> void Split(benchmark::State &state) {
     const UniformPoints<D> input(point_count<D>, random_order);
     MemoryHost memory;

@@ -1,17 +1,16 @@
-// probing_statistics: how misses are served when nothing is known of a neighbour
-// but the shared facet, as the dissertation measured it (§5.7, Figures 5.19, 5.20).
+// probing_statistics: how misses are served when only the shared facet of a neighbour is known, as
+// the dissertation measured it (§5.7, Figures 5.19, 5.20).
 //
 //   probing_statistics DIMENSION FILE CACHE_MB
 //
-// Builds the mesh of a file of raw points (see oracle_points) over an in-memory
-// store, with a cache that leaves the stored links unread, so that every miss has
-// to be probed for. Prints, one a line: links followed, misses, the misses that were
-// served by quick, ray-casting and concentric probing, and the pages read for them by
-// each.
+// Builds the mesh of a file of raw points (see oracle_points) over an in-memory store, with a cache
+// that does not read the stored links, so that every miss needs probing. Prints, one a line: links
+// followed, misses, the misses served by quick, ray-casting and concentric probing, and the pages
+// that each of these read.
 //
-// The counters tell the pages read by each kind. A miss was served by the last kind
-// that read a page for it. The core polls its host at the start of every miss. Then
-// this host looks at the counters and judges the miss before.
+// The counters show the pages read by each kind. A miss was served by the last kind that read a
+// page for it. The core polls its host at the start of every miss. Then this host reads the
+// counters and judges the miss before.
 #include "delaunay/insertion.hpp"
 #include "keys/domain_of.hpp"
 #include "points/vertex_reader.hpp"
@@ -44,7 +43,7 @@ public:
     }
 
     const abacus_host &watching() const { return watching_; }
-    /// `counters` are looked at from now on, until the last look.
+    /// Reads `counters` from now on, until the last look.
     void watch(const abacus_counters &counters) { counters_ = &counters; }
     const Served &last_look() {
         judge();
@@ -58,7 +57,7 @@ private:
         judge();
         before_ = *counters_;
     }
-    /// Credits the last miss, if there has been one, to the kind that served it.
+    /// Credits the last miss, if there was one, to the kind that served it.
     void judge() {
         if (before_.misses == 0) return;
         if (counters_->concentric_probes > before_.concentric_probes)
@@ -72,7 +71,7 @@ private:
     static constexpr int always_ = 1;
     abacus_host watching_;
     const abacus_counters *counters_ = nullptr;
-    abacus_counters before_{}; // when the last miss began
+    abacus_counters before_{}; // at the beginning of the last miss
     Served served_;
 };
 
@@ -111,7 +110,7 @@ template <int D> int run(const char *path, std::size_t cache_bytes) {
     if (n <= D) throw std::runtime_error("the points span no simplex");
     insertion.start(vertices);
     for_each_point<D>(host, header, [&](const Point<D> &p, std::int64_t id) {
-        insertion.insert(p, id, nullptr); // refuses the first ones: they are vertices already
+        insertion.insert(p, id, nullptr); // refuses the first ones, which are vertices already
         return true;
     });
     const Served served = memory.last_look();

@@ -1,6 +1,6 @@
-// Removal of half the points of a uniform mesh, along the curve or in random order: the
-// core over an in-memory store, and CGAL's remove() of the same points in the same order,
-// which is given the vertices where the core has to find them.
+// Removal of half the points of a uniform mesh, along the curve or in random order: the core over
+// an in-memory store, and CGAL's remove() of the same points in the same order. CGAL gets the
+// vertices; the core has to find them.
 #include "uniform_mesh.hpp"
 
 #include <CGAL/Delaunay_triangulation_2.h>

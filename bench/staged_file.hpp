@@ -1,5 +1,5 @@
-// Points of a file, staged into a store in memory: how the benchmarks that build without a
-// server begin.
+// Points of a file, staged into a store in memory: the beginning of the benchmarks that build
+// without a server.
 #pragma once
 
 #include <abacus/build.h>

@@ -1,5 +1,5 @@
-// Uniform points along the curve, and their mesh in the core alone: what several benchmarks
-// begin with.
+// Uniform points along the curve, and their mesh in the core alone: the beginning of several
+// benchmarks.
 #pragma once
 
 #include "delaunay/insertion.hpp"
@@ -21,7 +21,7 @@ template <int D> Domain<D> unit_domain() {
 
 enum Order { along_the_curve, random_order };
 
-/// Uniform points, along the curve, and half of them in the order asked for, by index.
+/// Uniform points along the curve, and half of them in the given order, by index.
 template <int D> struct UniformPoints {
     std::vector<Point<D>> points;
     std::vector<std::size_t> removed;
@@ -40,7 +40,7 @@ template <int D> struct UniformPoints {
     }
 };
 
-/// Their mesh, in a cache of so many bytes over a store in memory.
+/// Their mesh, in a cache of this size over a store in memory.
 template <int D> struct UniformMesh {
     MemoryHost memory;
     const Host host = memory.host();
@@ -55,7 +55,7 @@ template <int D> struct UniformMesh {
         const auto &points = input.points;
         std::array<VertexIndex, D + 1> first;
         for (int i = 0; i <= D; ++i) first[i] = cache.create_vertex(points[i], i, nullptr);
-        insertion.start(first); // any D + 1 of them: no four random points are coplanar
+        insertion.start(first); // any D + 1 will do: no four random points are coplanar
         for (std::size_t i = D + 1; i < points.size(); ++i)
             insertion.insert(points[i], static_cast<std::int64_t>(i), nullptr);
         cache.counters = {};

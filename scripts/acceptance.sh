@@ -6,10 +6,10 @@
 #
 #   acceptance.sh [quick|full|threads|goose] [2d|3d] [DATA SET...]
 #
-# quick takes two or three minutes, full (up to 14 M points a set) two hours; threads builds the sets
-# of full by 2, 3, 4 and 7 threads, in 40 minutes; goose does the same with abacus_goose and few
-# points, in a minute. 2d and 3d choose a dimension, names choose data sets; without any, all are
-# compared. Of the runs of each set, ABACUS_SHARE=K/N are every Nth, others in each set.
+# quick takes two or three minutes, full (up to 14 M points a set) two hours; threads builds the sets of full
+# with 2, 3, 4 and 7 threads, in 40 minutes; goose does the same with abacus_goose and few points, in a
+# minute. 2d and 3d choose a dimension, names choose data sets; without any, all are compared.
+# ABACUS_SHARE=K/N runs every Nth run of each set, different ones in each set.
 set -euo pipefail
 . "$(dirname "$0")/common.sh"
 . scripts/cluster.sh
@@ -18,7 +18,7 @@ set -euo pipefail
 usage="usage: $0 [quick|full|threads|goose] [2d|3d] [DATA SET...]"
 mode=${1:-quick}
 shift $(($# > 0))
-# dimension:data set:points, and cache (MB or a word of cache_size):order.
+# dimension:data set:points, and cache (MB or a word for cache_size):order.
 case $mode in
 quick)
     sets=(2:uniform:100000 2:grid:100000 2:circle:20000 2:rounded_circle:20000 2:wheel:20000
@@ -53,7 +53,7 @@ goose)
 *) fail "$usage" ;;
 esac
 
-# Leaves in `sets` those that the words on the command line choose.
+# Keeps in `sets` only those that the words on the command line choose.
 choose_sets() {
     local word dimensions=" " names=" " set dimension name chosen=()
     for word in "$@"; do
@@ -78,9 +78,9 @@ folder=$ABACUS_BUILD/acceptance-$mode
 oracle=$ABACUS_BUILD/release/test/oracle
 compared=0 differing=0
 
-# Builds the mesh of the table points, with its rows in order $1; `grown`: all points but the
-# last one first, and that one in a second step; `Nthreads`: by so many; `threads`: by many, each
-# with a tiny part; `goose`: by abacus_goose.
+# Builds the mesh of the table points, with its rows in order $1; `grown`: all points except the last one
+# first, and that one in a second step; `Nthreads`: with N threads; `threads`: with many, each with a tiny
+# part; `goose`: with abacus_goose.
 build_mesh() {
     local query="SELECT id, $columns FROM points" grow=() settings=()
     case $1 in
@@ -115,7 +115,7 @@ compare() {
         tables=mesh
     fi
     if ((dimension == 3)); then corners+=", v3"; fi
-    # Equal points are one vertex, which has the id of the first: where the file has it.
+    # Equal points are one vertex, with the id of the first one; in these orders that is the first in the file.
     case $order in made | grown | *threads | goose) first_ids=1 ;; esac
     start=${EPOCHREALTIME/./}
     build_mesh "$order"

@@ -8,9 +8,9 @@
 #   bench.sh report             makes docs/benchmarks.md from the results that are there
 #   bench.sh list               the parts, and how long each takes in the full mode
 #
-# The results and page of quick and smoke lie in build/bench-results/quick and smoke. Abacus and
-# all other engines get the same points, in turns; the server is a fresh one with default
-# settings except where a part says otherwise. bench/suite does the work.
+# The results and the page of quick and smoke are in build/bench-results/quick and smoke. Abacus and all other
+# engines get the same points, in turns; the server is a fresh one with default settings unless a part says
+# otherwise. bench/suite does the work.
 set -euo pipefail
 . "$(dirname "$0")/common.sh"
 . scripts/cluster.sh

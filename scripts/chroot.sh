@@ -1,20 +1,20 @@
 #!/bin/bash
-# Runs a command in a small Debian that has another version of PostgreSQL, or libraries of another
-# processor. The Debian is made once, in build/chroot-NAME/root, from the mirror that apt uses here.
+# Runs a command in a small Debian with another version of PostgreSQL, or with libraries of another processor.
+# The Debian is made once, in build/chroot-NAME/root, from the mirror that apt uses here.
 #
 #   chroot.sh NAME COMMAND...   e.g. chroot.sh 17 scripts/test.sh regress
 #   chroot.sh NAME              only makes it
 #
-# NAME is 15, 17, 18 or arm64. Exits with 77 if it cannot be made here: no root, no mirror, or no such
-# suite there. Packages that a command needs are installed by the command.
+# NAME is 15, 17, 18 or arm64. Exits with 77 if it cannot be made here: not root, no mirror, or no such suite
+# there. A command installs the packages that it needs.
 #
-# In there the source tree is /abacus, which cannot be written, and build/chroot-NAME/build is its
-# folder build. Nothing is mounted where others see it: all mounts are in a namespace of the
-# command, and end with it, as all its processes do.
+# In the chroot the source tree is /abacus, which is read-only, and build/chroot-NAME/build is its folder
+# build. Nothing is mounted where others see it: all mounts are in a namespace of the command, and end with
+# it, as do all its processes.
 set -euo pipefail
 . "$(dirname "$0")/common.sh"
 
-# Debian's suites: those that have these versions of PostgreSQL.
+# Debian's suites with these versions of PostgreSQL.
 declare -A suites=([15]=bookworm [17]=trixie [18]=forky [arm64]=trixie)
 
 name=${1:-}
@@ -36,13 +36,13 @@ cannot() {
     exit 77
 }
 
-# The first mirror of Debian that apt knows here.
+# The first Debian mirror that apt knows here.
 mirror() {
     apt-get indextargets --format '$(REPO_URI)' 'Created-By: Packages' 'Label: Debian' | head -n 1
 }
 
-# What is the same in all: no server is started, no cluster is made, only what programs need is
-# unpacked. A mirror may be a copy of a former day, whose signatures hold, but not their dates.
+# The common part: no server is started, no cluster is made, only the programs are unpacked. A mirror may be a
+# copy from an earlier day, with valid signatures but past dates.
 make_root() {
     local from
     ((EUID == 0)) || cannot "it needs root"
@@ -65,10 +65,10 @@ make_root() {
     mv "$root.new" "$root"
 }
 
-# The command, with mounts of its own.
+# Runs the command with mounts of its own.
 run() {
     mkdir -p build "$build"
-    # shellcheck disable=SC2016 # expanded in there
+    # shellcheck disable=SC2016 # expanded in the chroot
     exec unshare --mount --propagation private --pid --fork --kill-child --mount-proc bash -c '
         set -euo pipefail
         root=$1 source=$2 build=$3

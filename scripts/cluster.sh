@@ -6,11 +6,10 @@
 #   cluster_stop         stops it; also done when the script ends
 #   cluster_restart      for the children of that script: settings that need a new start
 #
-# PostgreSQL refuses to run as root, so root runs the server as user postgres. That user
-# may not reach a checkout below /root. Then the cluster lies in a folder of /tmp, and
-# build/cluster/NAME is a link to it. Clients run as the caller; the folder is closed to
-# everybody else, so the socket needs no password. A lock keeps two runs from sharing a
-# cluster.
+# PostgreSQL refuses to run as root, so root runs the server as user postgres. If that user cannot reach a
+# checkout below /root, the cluster lies in a folder of /tmp, and build/cluster/NAME is a link to it. Clients
+# run as the caller; the folder is closed to everyone else, so the socket needs no password. A lock keeps two
+# runs from sharing a cluster.
 
 cluster_as_server() {
     if ((EUID == 0)); then
@@ -79,7 +78,7 @@ cluster_remove() {
     rm -rf "$cluster_folder" "$cluster_link"
 }
 
-# psql as all scripts want it: stop at the first error, no start-up file.
+# psql as all scripts need it: stop at the first error, no start-up file.
 run_psql() {
     psql -X -q -v ON_ERROR_STOP=1 "$@"
 }

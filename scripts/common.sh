@@ -1,5 +1,5 @@
-# Sourced by the other scripts: where things are, one way to install the
-# extension, and a few words of output. They are run from any folder.
+# Sourced by the other scripts: the folders, a common way to install the extension, and functions for output.
+# Scripts can be run from any folder.
 
 ABACUS_ROOT=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 ABACUS_BUILD=$ABACUS_ROOT/build
@@ -10,7 +10,7 @@ PG_CONFIG=${PG_CONFIG:-/usr/lib/postgresql/$ABACUS_POSTGRESQL/bin/pg_config}
 cd "$ABACUS_ROOT"
 mkdir -p "$ABACUS_BUILD"
 
-# ccache, where there is one: the same for all checkouts, whose folder is not part of an object file, except for
+# ccache, if it is installed: shared by all checkouts, whose folder is not part of an object file, except for
 # the debugger.
 compilers=()
 if command -v ccache >/dev/null; then
@@ -32,8 +32,8 @@ fail() {
     exit 1
 }
 
-# Builds, and installs, the extensions as a packager does, but in a folder of its
-# own, so that the source tree stays clean.
+# Builds and installs the extensions as a packager does, but in a folder of its own, so that the source tree
+# stays clean.
 extension_make=(make -s -C "$ABACUS_BUILD/extension" -f "$ABACUS_ROOT/Makefile.pgxs"
     PG_CONFIG="$PG_CONFIG" "${compilers[@]}")
 
@@ -46,8 +46,8 @@ install_extension() {
     build_extension && as_root "${extension_make[@]}" install >/dev/null
 }
 
-# Builds the given CMake targets (all by default) in build/release; warnings are errors where
-# ABACUS_WERROR says so. In another Debian (chroot.sh) there is nothing to benchmark.
+# Builds the given CMake targets (all by default) in build/release; warnings are errors if ABACUS_WERROR says
+# so. In another Debian (chroot.sh) there are no benchmarks to build.
 build_release() {
     local targets=("${@:-all}")
     cmake -S . -B build/release ${ABACUS_WERROR:+-DABACUS_WERROR=ON} \

@@ -1,9 +1,8 @@
 #!/bin/bash
-# The demonstration, inside a throw-away PostgreSQL cluster. In the plane, all
-# shorelines, borders and rivers of the world, 14.35 million points, become a
-# triangulation. The demo locates places in it, walks and checks it. A mountain range
-# becomes a shaded terrain. In space, a million points of an earthquake model become
-# tetrahedra, which tell the ground under seismographs. Pictures are left in build/demo.
+# The demonstration, in a throw-away PostgreSQL cluster. In the plane, all shorelines, borders and rivers of
+# the world, 14.35 million points, become a triangulation. The demo locates places in it, walks in it and
+# checks it. A mountain range becomes a shaded terrain. In space, a million points of an earthquake model
+# become tetrahedra, which give the ground under seismographs. Pictures are left in build/demo.
 #
 #   demo.sh [--view]        everything (a few minutes); --view then shows the meshes in a browser
 #   demo.sh quick [--view]  shorelines at a fifth of the resolution, a coarser earthquake model
@@ -39,7 +38,7 @@ note() {
 
 value() { run_psql -A -t -c "$1"; }
 
-# Notes what is stored of mesh $1, whose points are in the table $1_points.
+# Notes the stored size of mesh $1, whose points are in the table $1_points.
 note_mesh() {
     note "$1: points" "$(value "SELECT count(*) FROM $1_points")"
     note "$1: simplices" "$(value "SELECT value FROM abacus_stats('$1') WHERE name = 'simplices'")"
@@ -72,7 +71,7 @@ with_progress() {
     wait "$client"
 }
 
-# draw FILE SQL: the bytea that the query yields becomes a picture.
+# draw FILE SQL: writes the bytea from the query as a picture.
 draw() {
     value "SELECT encode(png, 'base64') FROM ($2) AS drawing(png)" | base64 -d >"$pictures/$1"
     echo "  build/demo/$1  $(stat -c %s "$pictures/$1") bytes"
@@ -178,7 +177,7 @@ note_mesh quake
 heading "Times and sizes"
 printf '%s\n' "${summary[@]}"
 
-# Shows a mesh at a port, as long as this script runs.
+# Shows a mesh at a port as long as this script runs.
 show() {
     viewer/serve --mesh "$1" --port "$2" &
     viewers+=($!)

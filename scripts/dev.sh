@@ -1,6 +1,6 @@
 #!/bin/bash
-# The development loop: builds what has changed and runs what concerns it, in less than two minutes
-# on a built tree.
+# The development loop: builds the changes and runs the tests that concern them, in less than two minutes on a
+# built tree.
 #
 #   dev.sh unit [FILTER]      unit tests: all, or those of a GoogleTest filter
 #   dev.sh sql [TEST...]      regression tests in a server of their own: all, or sql/TEST.sql
@@ -53,7 +53,7 @@ format() {
     git ls-files -z --cached --others --exclude-standard '*.cpp' '*.hpp' | xargs -0 clang-format -i
 }
 
-# Files that differ from where the branch left main; a header is checked where it is included.
+# Files that differ from where the branch left main; headers are checked in the files that include them.
 changed_sources() {
     local from file
     from=$(git merge-base HEAD main 2>/dev/null || echo HEAD)
@@ -77,7 +77,7 @@ tidy() {
     if (($#)); then tidy_check "$@"; fi
 }
 
-# The files that a name stands for.
+# The files for a name.
 files_named() {
     local file
     if [[ -f $1 ]]; then

@@ -1,5 +1,5 @@
 #!/bin/bash
-# Measures what chapter 5 of the dissertation measured, and writes it beside its figures.
+# Repeats the measurements of chapter 5 of the dissertation, and writes the results beside its figures.
 #
 #   evaluation.sh quick [PART...]    minutes; into build/evaluation-results/quick/evaluation.md
 #   evaluation.sh full [PART...]     all sizes; into docs/evaluation.md
@@ -7,9 +7,9 @@
 #   evaluation.sh report             docs/evaluation.md anew from the results that are there
 #   evaluation.sh list               the parts, and about how long each takes
 #
-# Each part leaves a file of results when it has ended. So after an interrupted run, name
-# the parts that are left. Parts that have no room on the disk are left out, with a message.
-# Groups of limited memory are made by root (or sudo).
+# Each part leaves a file of results when it has ended. So after an interrupted run, name the remaining parts.
+# Parts without enough room on the disk are skipped, with a message. Control groups with limited memory are
+# made by root (or sudo).
 set -euo pipefail
 . "$(dirname "$0")/common.sh"
 . scripts/cluster.sh

@@ -1,7 +1,7 @@
 #!/bin/bash
-# Installs the Debian packages that Abacus is built, shown and tested with; does nothing (in a
-# fraction of a second) when all are present. ABACUS_POSTGRESQL is the server's version: 15, that
-# of Debian 12, if it is not set.
+# Installs the Debian packages that Abacus is built, shown and tested with; if all are present, it does
+# nothing, in a fraction of a second. ABACUS_POSTGRESQL is the server's version; by default 15, that of Debian
+# 12.
 #
 #   install-dependencies.sh build     what the extension needs
 #   install-dependencies.sh server    ... and tests in a server
@@ -32,22 +32,22 @@ core=(
 test=(
     "${server[@]}" "${core[@]}"
     libbenchmark-dev
-    libtet1.5-dev libqhull-dev      # TetGen and Qhull, to compare with
+    libtet1.5-dev libqhull-dev      # TetGen and Qhull, for comparison
     clang libclang-rt-14-dev        # clang brings libFuzzer
     clang-format clang-tidy
     gnuplot-nox                     # plots of docs/benchmarks.md
-    python3-numpy python3-scipy python3-matplotlib python3-vtk9   # whose answers ours are compared with
-    gdal-bin                        # reads tiles; gdal_grid, to compare with
-    libp4est-dev libopenmpi-dev     # p4est, whose octrees ours are compared with
+    python3-numpy python3-scipy python3-matplotlib python3-vtk9   # for comparing answers
+    gdal-bin                        # reads tiles; gdal_grid, for comparison
+    libp4est-dev libopenmpi-dev     # p4est, for comparing octrees
     python3-meshio                  # reads and writes the files of meshes
-    chromium                        # shows the viewer's page, without a screen
+    chromium                        # shows the viewer's page in headless mode
     mmdebstrap                      # a Debian with another version of PostgreSQL
 )
 bench=(
-    linux-perf                      # tells the functions that take most time
+    linux-perf                      # finds the functions that take most time
 )
 
-# Node.js may come from elsewhere.
+# Node.js may be installed from elsewhere.
 command -v npm >/dev/null || test+=(nodejs npm)
 
 case ${1:-test} in

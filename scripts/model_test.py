@@ -262,7 +262,7 @@ class World:
 
     def look(self):
         """Both meshes, as this session and as others see them."""
-        if self.savepoints is not None:  # where the mesh follows at commit, have it follow now
+        if self.savepoints is not None:  # a mesh that follows at commit must follow now
             self.session.run("SET CONSTRAINTS ALL IMMEDIATE;")
             if self.chance.random() < 0.7:
                 self.session.run("SET CONSTRAINTS ALL DEFERRED;")

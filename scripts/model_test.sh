@@ -1,12 +1,12 @@
 #!/bin/bash
-# Do meshes stay right when points come and go? Random changes of random points in random
-# transactions, against a plain table of the points there should be, against CGAL, and
-# against abacus_check; scripts/model_test.py tells more.
+# Do meshes stay correct when points come and go? Random changes of random points in random transactions,
+# compared with a plain table of the expected points, with CGAL, and with abacus_check; scripts/model_test.py
+# has the details.
 #
 #   model_test.sh [-t seconds] [-n worlds] [-s seed] [-w world]
 #
-# Ends after that time (default 60 s), or that many worlds. A failure prints the seed and
-# the number of the world; -s and -w run that world again.
+# Ends after that time (default 60 s), or after that many worlds. A failure prints the seed and the number of
+# the world; -s and -w run that world again.
 set -euo pipefail
 . "$(dirname "$0")/common.sh"
 . scripts/cluster.sh

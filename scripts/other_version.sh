@@ -1,7 +1,7 @@
-# Sourced by test.sh: the tests with another version of PostgreSQL, in the Debian that has it (chroot.sh).
+# Sourced by test.sh: the tests with another version of PostgreSQL, in a Debian that has it (chroot.sh).
 
-# other_postgresql N [short|NAME...]: runs test.sh there. What is compiled and installed here is brought
-# along: this server, for pg_upgrade from it, and in the short form the core.
+# other_postgresql N [short|NAME...]: runs test.sh there. It brings along what is compiled and installed
+# here: this server, for pg_upgrade from it, and in the short form the core.
 other_postgresql() {
     local version=$1 build=$ABACUS_BUILD/chroot-$1/build packages=versions
     shift
@@ -25,8 +25,8 @@ other_postgresql() {
     exec scripts/chroot.sh "$version" "$@"
 }
 
-# The core's object files and the oracle, as they are compiled here, into another folder build. They
-# know nothing of PostgreSQL.
+# The core's object files and the oracle, as compiled here, for another build folder. They do not depend on
+# PostgreSQL.
 bring_core() {
     local oracle=release/test/oracle
     if [[ -z ${ABACUS_BUILT:-} ]]; then
@@ -40,9 +40,9 @@ bring_core() {
     cp -p "$ABACUS_BUILD/$oracle"/oracle_{points,compare} "$1/$oracle"
 }
 
-# bring_server ROOT FOLDER: the server of here, with its extensions, and the libraries that the Debian
-# in ROOT lacks, into a folder there that everybody can read. It finds its files by where it lies, so
-# Debian's folders are kept. Left out is the compiler of queries, whose library is large.
+# bring_server ROOT FOLDER: copies the server of this system, with its extensions and the libraries that the
+# Debian in ROOT lacks, into a folder there that everyone can read. The server finds its files relative to its
+# own place, so Debian's folders are kept. The query compiler is omitted, since its library is large.
 bring_server() {
     local root=$1 folder=$1/$2 server=lib/postgresql/$ABACUS_POSTGRESQL share=share/postgresql/$ABACUS_POSTGRESQL
     local from library path

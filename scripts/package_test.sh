@@ -1,7 +1,7 @@
 #!/bin/bash
-# Builds Debian's packages from a copy of the source, one for each version of PostgreSQL that is
-# installed; checks them with lintian, installs them, runs regression tests of what is installed, and
-# removes them again. Changes the system it runs in: it is meant for a chroot.
+# Builds Debian's packages from a copy of the source, one for each installed version of PostgreSQL; checks
+# them with lintian, installs them, runs regression tests of the installed extension, and removes them again.
+# It changes the system in which it runs, so it is meant for a chroot.
 #
 #   chroot.sh 17 scripts/package_test.sh
 set -euo pipefail

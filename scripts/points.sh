@@ -1,4 +1,4 @@
-# Sourced after cluster.sh by the scripts that build meshes of generated points.
+# Sourced after cluster.sh by the scripts that build meshes from generated points.
 
 # The columns of points of dimension $1: x, y and perhaps z.
 coordinates() {
@@ -9,8 +9,7 @@ coordinates() {
     esac
 }
 
-# Fills a fresh table `points` (id and coordinates, dimension $1) from file $2, which is in
-# binary COPY format.
+# Fills a fresh table `points` (id and coordinates, dimension $1) from file $2 in binary COPY format.
 create_points() {
     local columns
     columns=$(coordinates "$1")
@@ -18,8 +17,8 @@ create_points() {
     run_psql -c "COPY points FROM STDIN (FORMAT binary)" <"$2"
 }
 
-# A cache size in MB: a number, or which one of the server's: the smallest or largest that
-# it takes (the largest is no limit in practice), or its default.
+# A cache size in MB: a number, or one of the server's: the smallest or largest possible (the largest is
+# practically unlimited), or its default.
 cache_size() {
     local column
     case $1 in

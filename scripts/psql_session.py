@@ -16,7 +16,7 @@ class Session:
         self.psql = subprocess.Popen(
             ["psql", "-X", "-q", "-A", "-t"], text=True, bufsize=1,
             stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
-            # what is printed is an answer or an error
+            # all output is an answer or an error
             env=os.environ | {"PGOPTIONS": os.environ.get("PGOPTIONS", "") + " -c client_min_messages=warning"})
 
     def __enter__(self):

@@ -1,4 +1,4 @@
-# Sourced by test.sh: what of the suites runs in a size, by the table test/sizes and a seed.
+# Sourced by test.sh: which parts of the suites run in a size, from the table test/sizes and a seed.
 
 # The table: the suites in its order, the size of each, and its turns.
 size_suites=()
@@ -9,7 +9,7 @@ while read -r suite_name suite_size suite_turns; do
     size_of[$suite_name]=$suite_size turns_of[$suite_name]=$suite_turns
 done <test/sizes
 
-# The seed of all that takes turns: a number made of the tree as it is, unless ABACUS_SEED is one.
+# The seed for all that takes turns: a number computed from the tree, unless ABACUS_SEED gives one.
 tree_seed() {
     local tree=${ABACUS_SEED:-}
     if [[ -z $tree ]]; then
@@ -20,8 +20,8 @@ tree_seed() {
     echo "$tree"
 }
 
-# Sets `turn` to what the table has behind a prefix: turn_of SUITE PREFIX, `4` for 1/ and 1/4; empty if
-# nothing.
+# Sets `turn` to the text after a prefix in the table: turn_of SUITE PREFIX, `4` for 1/ and 1/4; empty if
+# there is none.
 turn_of() {
     local word
     turn=
@@ -30,7 +30,7 @@ turn_of() {
     done
 }
 
-# The suites of a size, those that take turns chosen by the seed: suites_of SIZE SEED.
+# The suites of a size; the seed chooses among those that take turns: suites_of SIZE SEED.
 suites_of() {
     local size=$1 seed=$2 name other turn group members chosen=" "
     [[ $size == @(quick|usual|everything) ]] || fail "There is no size $size: choose quick, usual or everything."
@@ -55,8 +55,8 @@ suites_of() {
     done
 }
 
-# share_of SUITE SEED: `K/N`, the part of it that has its turn; nothing if all of it has. Each suite has
-# a hash of its own, or the choice in a group would always go with the same part.
+# share_of SUITE SEED: `K/N`, the part of it whose turn it is; empty for the whole suite. Each suite has a
+# hash of its own, since otherwise the choice in a group would always coincide with the same part.
 share_of() {
     local turn hash
     turn_of "$1" 1/

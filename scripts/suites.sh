@@ -1,23 +1,23 @@
-# Sourced after cluster.sh: how each kind of test is run. scripts/test.sh runs all of a kind,
-# scripts/dev.sh a few, so most take the names of what to run. Tests that need a server use the
-# one that the environment names; cluster_start makes it.
+# Sourced after cluster.sh: how each kind of test is run. scripts/test.sh runs all tests of a kind,
+# scripts/dev.sh a few, so most functions take names. Tests that need a server use the one that the
+# environment names; cluster_start makes it.
 
-# Warnings are errors in what the tests build. With ABACUS_WERROR= (empty) they are not, for a
-# compiler with other warnings.
+# Warnings are errors in code that the tests build. With ABACUS_WERROR= (empty) they are not, for a compiler
+# with other warnings.
 export ABACUS_WERROR=${ABACUS_WERROR-1}
 
-# All C++ is as clang-format writes it.
+# Checks that all C++ is formatted by clang-format.
 format_check() {
     git ls-files -z '*.cpp' '*.hpp' | xargs -0 clang-format --dry-run -Werror
 }
 
-# The tree is as docs/architecture.md says, and documents name files that there are.
+# Checks that the tree agrees with docs/architecture.md, and that files named in documents exist.
 layout_check() {
     python3 -m unittest discover -s test/layout -p '*_test.py'
 }
 
-# .clang-tidy over some files: tidy_check FILE.... Nothing is compiled in build/tidy; it only
-# tells how each file would be.
+# .clang-tidy over some files: tidy_check FILE.... Nothing is compiled in build/tidy; it only says how each
+# file would be compiled.
 tidy_check() {
     CC=clang CXX=clang++ cmake -S . -B build/tidy -DABACUS_UNITS=OFF -DCMAKE_DISABLE_PRECOMPILE_HEADERS=ON >/dev/null &&
         printf '%s\0' "$@" | xargs -0 -n 1 -P "$ABACUS_JOBS" clang-tidy --quiet -p build/tidy
@@ -29,8 +29,8 @@ build_unit_tests() {
         ABACUS_CORE_OBJECTS=$ABACUS_BUILD/extension build_release abacus_unit_tests
 }
 
-# Unit tests of a build, in shards: unit_tests FOLDER [OPTION of ctest...]. Of ABACUS_SHARE=K/N these are
-# every Nth shard.
+# Unit tests of a build, in shards: unit_tests FOLDER [OPTION of ctest...]. With ABACUS_SHARE=K/N, only every
+# Nth shard.
 unit_tests() {
     local share=()
     if [[ -n ${ABACUS_SHARE:-} ]]; then share=(-I "$((${ABACUS_SHARE%/*} + 1)),,${ABACUS_SHARE#*/}"); fi
@@ -42,8 +42,8 @@ unit_tests() {
 }
 
 # Regression tests, and isolation tests: regression_tests [TEST...], isolation_tests [TEST...]; all without
-# arguments. One after the other: what they show depends on all that the server does (progress, room that
-# is given back), so suites run beside each other, in servers of their own, but not these tests.
+# arguments. They run one after the other: their output depends on everything that the server does (progress,
+# freed space). So suites run in parallel, in servers of their own, but not these tests.
 regression_tests() {
     if ((!$#)); then set -- "$(names_of .sql < <(ls sql/*.sql))"; fi
     "${extension_make[@]}" installcheck REGRESS="$*" ISOLATION= && return
@@ -58,12 +58,12 @@ isolation_tests() {
     return 1
 }
 
-# Names of tests from those of files, in a line: names_of ENDING.
+# Names of tests from names of files, in one line: names_of ENDING.
 names_of() {
     xargs -n 1 basename -s "$1" | paste -sd ' '
 }
 
-# pgTAP files; all without arguments. Each has a database of its own, so several run side by side.
+# pgTAP files; all without arguments. Each has a database of its own, so several run in parallel.
 pgtap_tests() {
     if ((!$#)); then set -- test/pgtap/*.sql; fi
     run_psql -c "DROP DATABASE IF EXISTS abacus_pgtap" -c "CREATE DATABASE abacus_pgtap" &&
@@ -71,9 +71,8 @@ pgtap_tests() {
         pg_prove --psql-bin test/pgtap/in_own_database -j "$ABACUS_JOBS" "$@"
 }
 
-# The TAP files are copied to a folder where the server's user may write. A small file system
-# serves as a disk that is soon full. Where it cannot be mounted, that test is skipped. Call
-# tap_end afterwards.
+# The TAP files are copied to a folder where the server's user may write. A small file system serves as a disk
+# that is soon full. If it cannot be mounted, that test is skipped. Call tap_end afterwards.
 tap_begin() {
     tap_folder=$cluster_folder/tap
     mkdir "$tap_folder" "$tap_folder/disk"
@@ -91,10 +90,10 @@ tap_end() {
     tap_disk=
 }
 
-# Crashes, many sessions, dumps, replication, upgrades: in servers that the tests start
-# themselves, as a user that may. An interrupted test dies and ends its servers. ABACUS_KILLS says
-# how often to kill. Names of files in test/tap; all without arguments. A server of an earlier
-# version that was brought (other_version.sh) is upgraded from.
+# Crashes, many sessions, dumps, replication, upgrades: in servers that the tests start themselves, as a user
+# who may. An interrupted test dies and ends its servers. ABACUS_KILLS says how often to kill. Takes names of
+# files in test/tap; all without arguments. If a server of an earlier version was brought (other_version.sh),
+# the upgrade starts from it.
 tap_tests() {
     local sources old=()
     if [[ -n ${ABACUS_CHROOT:-} && -d /opt/old ]]; then
@@ -102,14 +101,14 @@ tap_tests() {
     fi
     if ((!$#)); then set -- "$tap_folder"/*.pl; else set -- "${@/#/"$tap_folder/"}"; fi
     sources=$(dirname "$("$PG_CONFIG" --pgxs)")/..
-    # TESTDIR until 15, the others since
+    # TESTDIR until 15, the others since then
     cluster_as_server env TESTDIR="$tap_folder" TESTDATADIR="$tap_folder/tmp_check" \
         TESTLOGDIR="$tap_folder/tmp_check/log" "${old[@]}" PG_REGRESS="$sources/test/regress/pg_regress" \
         PERL5OPT=-Msigtrap=die,INT,TERM prove -j "$ABACUS_JOBS" -I "$sources/test/perl" "$@"
 }
 
-# The viewer: its server, and its page in a browser without a screen. Status 77 if its packages are not
-# there and cannot be had.
+# The viewer: its server, and its page in a headless browser. Status 77 if its packages are missing and cannot
+# be installed.
 viewer_tests() {
     if ! viewer/serve --build; then
         npm ping >/dev/null 2>&1 && return 1
@@ -123,8 +122,8 @@ viewer_tests() {
             test/viewer/${1:-*}.test.js
 }
 
-# The examples of pages, each page in a database of its own, and the pictures of the guide; pages that need PostGIS
-# only where it is installed.
+# The examples of pages, each page in a database of its own, and the pictures of the guide; pages that need
+# PostGIS only if it is installed.
 documentation_examples() {
     if (($#)); then
         scripts/doc_examples.py "$@"
@@ -138,12 +137,12 @@ documentation_examples() {
     scripts/doc_examples.py "${pages[@]}" && scripts/guide_pictures.py --check
 }
 
-# Python tests of the reports that benchmarks make, and of the scripts; names of files in test/suite.
+# Python tests of the benchmarks' reports and of the scripts; takes names of files in test/suite.
 report_tests() {
     python3 -m unittest discover -s test/suite -p "${1:-*_test.py}"
 }
 
-# Answers against those of SciPy, matplotlib and VTK, in a database of its own; names of files in
+# Compares answers with those of SciPy, matplotlib and VTK, in a database of its own; takes names of files in
 # test/oracle. These are packages of the system's own Python.
 oracle_tests() {
     run_psql -c "DROP DATABASE IF EXISTS abacus_oracle" -c "CREATE DATABASE abacus_oracle" &&

@@ -17,8 +17,8 @@
 #                       server and the core concerns, compiled there; these suites; or, in some
 #                       minutes, what differs between servers, with the core as it is compiled here
 #
-# ABACUS_SEED is a number that decides what has its turn in the usual size, and where servers are
-# killed; without it the tree does.
+# ABACUS_SEED is a number that decides what has its turn in the usual size, and where servers are killed; by
+# default the number comes from the tree.
 set -uo pipefail
 . "$(dirname "$0")/common.sh"
 . scripts/cluster.sh
@@ -30,11 +30,11 @@ FUZZ_SECONDS=${FUZZ_SECONDS:-30}
 logs=$ABACUS_BUILD/test
 mkdir -p "$logs"
 
-# The short form: TAP files that concern what differs between versions, and data sets.
+# The short form: TAP files about differences between versions, and data sets.
 short_tap="standby.pl logical.pl pg_upgrade.pl vacuum.pl build_crash.pl"
 short_sets="wheel octree duplicates"
 
-# Each suite, and what runs it, in the order in which they begin: each as soon as what it needs is there.
+# Each suite and its command, in the order in which they begin, each as soon as its needs have passed.
 suites=(format layout build-extension build tap build-benchmarks build-sanitized build-threads
     postgresql-17 postgresql-18 viewer unit-sanitized unit-threads unit acceptance unit-apart oracles pgtap
     regress isolation docs model fuzz reports acceptance-goose tidy bench evaluation)
@@ -68,7 +68,7 @@ declare -A command=(
     [postgresql-17]="scripts/test.sh --postgresql 17 short"
     [postgresql-18]="scripts/test.sh --postgresql 18 short"
 )
-# What must have passed before a suite.
+# What must have passed before a suite begins.
 declare -A needs=([unit]=build [unit-apart]=build [build-sanitized]=build [build-benchmarks]=build
     [unit-sanitized]=build-sanitized [unit-threads]=build-threads [fuzz]=build-sanitized
     [bench]=build-benchmarks [evaluation]=build-benchmarks)
@@ -94,14 +94,14 @@ build_with_clang() {
         cmake --build "$1" -j "$ABACUS_JOBS"
 }
 
-# The whole core; `dev.sh tidy` checks what has changed.
+# The whole core; `dev.sh tidy` checks only changed files.
 tidy_core() {
     local files
     mapfile -t files < <(git ls-files 'src/*.cpp')
     tidy_check "${files[@]}"
 }
 
-# All fuzz targets at once, FUZZ_SECONDS of processor time in all. The inputs that a target finds
+# All fuzz targets in parallel, with FUZZ_SECONDS of processor time in total. The inputs that a target finds
 # stay in build/fuzz/corpus for the next run. Its seeds are in test/fuzz/corpus/<target>.
 fuzz() {
     local targets=(test/fuzz/*.cpp) target runs=() run status=0
@@ -123,7 +123,7 @@ fuzz_target() {
         -verbosity=1 "${folders[@]}"
 }
 
-# The suite in a server of its own.
+# Runs the suite in a server of its own.
 with_server() {
     cluster_start "$suite" && "$@"
 }
@@ -134,7 +134,7 @@ tap_suite() {
     tap_tests "$@"
 }
 
-# --suite NAME: one suite, its times noted by timed.py, which runs this.
+# --suite NAME: runs one suite. timed.py, which calls this, notes its times.
 if [[ ${1:-} == --suite ]]; then
     suite=$2
     # shellcheck disable=SC2086 # the words of a command
@@ -142,7 +142,7 @@ if [[ ${1:-} == --suite ]]; then
     exit
 fi
 
-# choose NAME...: leaves in `suites` these, and what they need.
+# choose NAME...: keeps in `suites` only these and what they need.
 choose() {
     local name kept=()
     declare -A chosen=()
@@ -159,7 +159,7 @@ choose() {
     suites=("${kept[@]}")
 }
 
-# start NAME: the suite in the background, as a process group, its output into a log.
+# start NAME: runs the suite in the background, as a process group, with its output in a log.
 start() {
     local share=
     if [[ -n ${by_turns[$1]:-} ]]; then share=$(share_of "$1" "$seed"); fi
@@ -170,8 +170,8 @@ start() {
     set +m
 }
 
-# ended PID STATUS: says how its suite ended, with the end of the log of one that failed. Status 77: it
-# cannot be run here.
+# ended PID STATUS: reports how its suite ended, with the end of the log if it failed. Status 77: it cannot be
+# run here.
 ended() {
     local name=${running[$1]} status=$2 log=$logs/${running[$1]}.log word=ok said elapsed=- used=- kernel=-
     unset "running[$1]"
@@ -187,7 +187,7 @@ ended() {
     if [[ $word == FAILED ]]; then tail -n 40 "$log"; fi
 }
 
-# The first of the suites left whose need has passed; those whose need has failed fail.
+# The first remaining suite whose needs have passed; suites whose needs have failed fail.
 next_suite() {
     local name need
     ready=
@@ -205,8 +205,8 @@ next_suite() {
     done
 }
 
-# All suites, as many side by side as there are processors: servers mostly wait, and few suites use more
-# than one.
+# All suites, as many in parallel as there are processors: servers mostly wait, and few suites use more than
+# one.
 run_suites() {
     local left=("${suites[@]}") pid status ready
     declare -gA running=() good=()

@@ -42,7 +42,7 @@ def end_children():
                 asked.add((child, number))
                 try:
                     os.kill(child, number)
-                except OSError:  # it has ended, or is another user's
+                except OSError:  # it has ended, or belongs to another user
                     pass
         time.sleep(0.1)
 

@@ -1,10 +1,9 @@
-// bench_cgal: what CGAL takes to build the triangulation in core.
+// bench_cgal: what CGAL takes to build the triangulation in memory.
 //
 // The points are sorted along a curve and inserted one by one, each from the one before, as
-// Delaunay_triangulation_2 and _3 do for a range. Both are the plain sequential
-// ones with the default policies; in 3D this means Compact_location: after a
-// spatial sort the hint is better than the hierarchy of Fast_location, which only
-// adds its upkeep.
+// Delaunay_triangulation_2 and _3 do for a range. Both are the plain sequential versions with the
+// default policies. In 3D this means Compact_location: after a spatial sort the hint is better than
+// the hierarchy of Fast_location, which only costs its upkeep.
 //
 // CGAL's triangulations are GPL: this program is a benchmark and not a part of
 // the extension.

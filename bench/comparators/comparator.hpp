@@ -3,10 +3,10 @@
 //
 //   bench_<engine> DIMENSION FILE
 //
-// FILE holds raw records (int64 id, then a double a coordinate; see oracle_points). What is
-// timed is reading them and building the triangulation; it ends when the engine could
-// answer questions. Giving memory back is not timed. The memory is the largest resident
-// set of the process, the points included.
+// FILE holds raw records (an int64 id, then a double for each coordinate; see oracle_points). The
+// measured time is that of reading them and of building the triangulation, until the engine could
+// answer questions. Freeing memory is not timed. The memory is the largest resident set of the
+// process, including the points.
 #pragma once
 
 #include <cstdint>
@@ -35,7 +35,7 @@ template <int D, class Visit> void for_each_point(const char *path, Visit visit)
     std::fclose(file);
 }
 
-/// The coordinates of one point after the other.
+/// The coordinates of all points, one point after the other.
 template <int D> std::vector<double> read_coordinates(const char *path) {
     std::vector<double> coordinates;
     for_each_point<D>(path,
@@ -43,7 +43,7 @@ template <int D> std::vector<double> read_coordinates(const char *path) {
     return coordinates;
 }
 
-/// Wall and CPU seconds of the phases, one after the other from the start of the program.
+/// Wall and CPU seconds of successive phases from the start of the program.
 class Stopwatch {
 public:
     Stopwatch() : wall_(now(CLOCK_MONOTONIC)), cpu_(now(CLOCK_PROCESS_CPUTIME_ID)), last_(wall_) {}

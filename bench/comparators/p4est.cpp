@@ -1,6 +1,7 @@
-// bench_p4est: what p4est takes to make an octree of points in memory, one in a leaf at most, to
-// balance it across corners, and to number its nodes. Of the points in the unit square or cube that
-// a file has. The library is Debian's, and GPL: it is linked into this program and the oracle only.
+// bench_p4est: what p4est takes to make an octree of points in memory, with at most one point in a
+// leaf, to balance it across corners, and to number its nodes. The points of the file lie in the
+// unit square or cube. The library is Debian's, and GPL: it is linked only into this program and
+// the oracle.
 #include "oracle/p4est.hpp"
 #include "comparator.hpp"
 
@@ -12,7 +13,7 @@ namespace {
 
 using abacus::test::Foreign;
 
-/// Place on the Morton curve: bits of coordinates that count cells, D * levels in all.
+/// A place on the Morton curve: bits of coordinates that count cells, D * levels in all.
 template <int D> std::uint64_t place(const std::array<std::uint32_t, D> &cell) {
     std::uint64_t code = 0;
     for (int bit = 0; bit < Foreign<D>::levels; ++bit)

@@ -9,7 +9,7 @@ namespace {
 /// Number of simplices of the lower hull, which is the Delaunay triangulation.
 std::size_t simplices(qhT *qh) {
     std::size_t count = 0;
-    facetT *facet; // FORALLfacets is a macro over a variable of this name
+    facetT *facet; // the macro FORALLfacets needs a variable with this name
     FORALLfacets {
         if (!facet->upperdelaunay) ++count;
     }

@@ -1,5 +1,4 @@
-// bench_tetgen: what TetGen takes for the tetrahedra of points alone. The library is
-// Debian's.
+// bench_tetgen: what TetGen takes for the tetrahedra of points only. The library is Debian's.
 #include "comparator.hpp"
 
 #define TETLIBRARY

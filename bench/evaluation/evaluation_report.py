@@ -7,7 +7,7 @@ from growth_figures import GrowthFigures
 from results import median
 from trace_figures import TraceFigures
 
-RECORD_BYTES = {2: 24, 3: 32}  # of a point in the dissertation's files
+RECORD_BYTES = {2: 24, 3: 32}  # for a point in the dissertation's files
 
 
 class EvaluationReport(Document):

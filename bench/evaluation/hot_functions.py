@@ -62,9 +62,9 @@ class Recording:
         os.close(says)
         try:
             os.write(self.command, b"enable\n")
-            os.read(self.answer, 16)  # nothing, if perf has ended
+            os.read(self.answer, 16)  # empty if perf has ended
         except BrokenPipeError:
-            pass  # end() tells why
+            pass  # end() reports why
 
     def end(self):
         """What perf complained of."""

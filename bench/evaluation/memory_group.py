@@ -63,7 +63,7 @@ class MemoryGroup:
             write(self.folder / "memory.max", self.limit)
         swap, limit = (("memory.memsw.limit_in_bytes", self.limit) if self.version == 1
                        else ("memory.swap.max", 0))
-        if (self.folder / swap).exists():  # not on kernels that don't count it
+        if (self.folder / swap).exists():  # missing on kernels that don't count it
             write(self.folder / swap, limit)
         return self
 

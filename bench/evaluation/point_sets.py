@@ -2,13 +2,12 @@
 import server
 from points import PointSet
 
-# Bytes of disk that a point takes while a mesh is made of it: its row in the table of points, the
-# vertex table, the simplex table (what staging spools is gone by then); and what there is besides,
-# of WAL mostly.
+# Bytes of disk for each point while a mesh is made from it: its row in the table of points, the vertex table, the simplex table
+# (the spools of staging are gone by then); and the rest, mostly WAL.
 BYTES_A_POINT = {2: 115, 3: 200}
 BYTES_BESIDES = 4 << 30
 
-# How many points abacus_quake has at the frequencies that are measured (docs/lab.md).
+# How many points abacus_quake returns at the measured frequencies (docs/lab.md).
 QUAKE_POINTS = {0.05: 31916, 0.1: 131692, 0.25: 1016926, 0.5: 6027713, 0.75: 20214375, 1: 40131510,
                 1.5: 143764696, 1.85: 221962206}
 

@@ -82,7 +82,7 @@ class Usage:
     """What a process has taken so far."""
     user: float    # seconds, as the kernel's clock ticks
     system: float
-    read: int      # bytes from the disk, not from what the kernel has cached
+    read: int      # bytes from the disk, not from the kernel's cache
     written: int
 
     @classmethod
@@ -116,8 +116,8 @@ class Confinement:
 
 
 class DroppedCache:
-    """Where no group can be made: what the kernel has cached is dropped before each step, and it is
-    told how much it has cached at the end."""
+    """If no group can be made: drops the kernel's cache before each step, and reports how large it is
+    at the end."""
 
     def start(self):
         self.dropped = memory_group.drop_page_cache()

@@ -12,7 +12,7 @@ SHORELINES = 14353294
 @dataclasses.dataclass
 class Wanted:
     what: str
-    limit: float | None  # None: it is only told
+    limit: float | None  # None: it is only reported
     at_most: bool
     measured: typing.Callable  # of Results: the figure, or None
 

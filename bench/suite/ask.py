@@ -11,7 +11,7 @@ from points import PointSet
 HEIGHT = "100 * sin(8 * x) * cos(6 * y) + 20 * x"
 LEVELS = [-95 + 10 * n for n in range(20)]
 
-# Statements that answer all places of a table: rates of what interpolates beside that of abacus_locate
+# Statements that answer all places of a table: rates of the interpolations beside that of abacus_locate
 RATES = {
     "locate, a call each": ("ordered", "SELECT count(abacus_locate('mesh', x, y)) FROM ordered"),
     "linear, a call each": ("ordered", "SELECT count(abacus_interpolate('mesh', x, y)) FROM ordered"),

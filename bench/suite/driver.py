@@ -31,8 +31,8 @@ class Part:
 class Book:
     """A document, what is measured for it, and what makes its regions and pictures of that."""
     parts: list
-    document: pathlib.Path  # beside it, in a folder of its name: pictures and results.json
-    report: typing.Callable  # of the results and the folder of the pictures
+    document: pathlib.Path  # pictures and results.json lie beside it, in a folder with its name
+    report: typing.Callable  # of the results and the folder for the pictures
     results: pathlib.Path  # a JSON file a part; quick/ and smoke/ have their own
 
     @property
@@ -94,14 +94,14 @@ def write_report(book, mode):
         results = Results().merge_files(book.results / mode)
         document = book.results / mode / book.document.name
     pictures = document.with_suffix("")
-    for picture in pictures.glob("*.svg"):  # of what is no longer measured
+    for picture in pictures.glob("*.svg"):  # pictures of parts that are no longer measured
         picture.unlink()
     document.write_text(book.report(results, pictures).fill(text))
     print(f"\n{document.relative_to(paths.ROOT)} has been written")
 
 
 def main(book):
-    signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))  # files of points and groups are removed
+    signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))  # so that files of points and groups are removed
     mode, *names = sys.argv[1:]
     if mode == "list":
         for part in book.parts:

@@ -131,7 +131,7 @@ class Edits:
                     session.run(f"SELECT abacus_{change}('mesh', 'SELECT id, {self.points.columns}"
                                 f" FROM queue WHERE {which} AND {chosen}')")
         sample = {"fresh": fresh, "wal": server.wal_position() - wal, "after": int(server.query(size))}
-        # one that moves pages begins with one that does not
+        # a measurement that moves pages begins with one that does not
         for which, moves in (("vacuumed", "off"), ("moved", "on")):
             with server.Session() as session:
                 session.run("LOAD 'abacus'")

@@ -7,7 +7,7 @@ import server
 from points import PointSet
 
 MOST = 1  # points in a leaf
-P4EST = paths.PROGRAMS / "bench_p4est"  # where its library is
+P4EST = paths.PROGRAMS / "bench_p4est"  # exists if its library is installed
 
 
 class Octrees:
@@ -54,7 +54,7 @@ class Octrees:
             timed("construct", f"SELECT abacus_octree_from_points('tree', 'SELECT id, {points.columns} FROM points', {MOST})")
             balance = timed("balance", "SELECT abacus_octree_balance('tree')")
             balance["bytes"] = int(server.query("SELECT pg_table_size('tree') + pg_indexes_size('tree')"))
-            # In the select list rows are handed on one by one.
+            # In a select list, rows are passed on one by one.
             for step, function in ("nodes", "nodes"), ("elements", "elements"), ("simplices", "tetrahedra"):
                 timed(step, f"SELECT count(*) FROM (SELECT abacus_octree_{function}('tree') OFFSET 0) AS row")
             located = timed("locate", f"SELECT count(code) FROM abacus_octree_locate('tree', 'SELECT id, {points.columns} FROM points')")

@@ -25,10 +25,10 @@ def contests(*contests):
 
 FEWER = {"full": 3, "quick": 1, "smoke": 1}
 
-# By one thread, by two, and by all processors, each number once
+# One thread, two, and one for each processor; each number once
 THREADS = tuple(f"threads:{count}" for count in sorted({1, 2, os.cpu_count()}))
 
-# What the cost of a point of very many is compared with: few, just before them and just after
+# The cost of a point among very many is compared with this smaller build, just before and just after
 BESIDE = Contest(2, "uniform", {"full": 1000000}, ("abacus:64",), what="beside")
 
 PARTS = [

@@ -38,7 +38,7 @@ def main(folder, runs, levels):
                                  for name in ("points", "triangles", "places"))
     mesh = Triangulation(points[:, 0], points[:, 1], triangles.astype(numpy.int32))
     heights = numpy.ascontiguousarray(points[:, 2])
-    mesh.neighbors  # found before, as the mesh has them stored
+    mesh.neighbors  # computed before: Abacus has them stored
 
     def contours(generator):
         return sum(len(line) for level in levels for line in generator.create_contour(level)[0])

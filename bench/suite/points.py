@@ -37,7 +37,7 @@ class PointSet:
         server.drop("points", "mesh", "mesh_vertices")
         columns = self.columns.replace(",", " float8,") + " float8"
         with subprocess.Popen(self.command("copy"), stdout=subprocess.PIPE) as source:
-            # In one transaction, so that the rows can be frozen as they come.
+            # In one transaction, so that the rows are frozen as they are copied.
             subprocess.run(["psql", "-X", "-q", "-v", "ON_ERROR_STOP=1", "-1",
                             "-c", f"CREATE TABLE points (id bigint, {columns})",
                             "-c", "COPY points FROM STDIN (FORMAT binary, FREEZE)"],

@@ -14,7 +14,7 @@ LAYER = """<OGRVRTDataSource><OGRVRTLayer name="points"><SrcDataSource>{file}</S
 
 
 def abacus(pixels):
-    # In the select list rows are handed on one by one.
+    # In a select list, rows are passed on one by one.
     with server.Session(abacus__cache_size=f"{server.cache_size('largest')}MB") as session:
         sample = session.timed(f"SELECT count(*) FROM (SELECT abacus_raster('relief', '{{0, 0}}', '{{1, 1}}', {pixels}, {pixels}) OFFSET 0) AS row")
     del sample["printed"]

@@ -34,7 +34,7 @@ class Results:
         for path in sorted(folder.glob("*.json")):
             part = json.loads(path.read_text())
             self.parts[part["part"]] = part
-        self.parts = dict(sorted(self.parts.items()))  # as they are written
+        self.parts = dict(sorted(self.parts.items()))  # in the order in which they are written
         return self
 
     def write(self, path):

@@ -11,7 +11,7 @@ from points import PointSet
 
 SCALE = 2**53
 
-# The box of the triangle holds the place, and the place is not to the right of an edge.
+# The triangle's box contains the place, and the place is not to the right of any edge.
 ROWS = """
     SELECT count(t.v0), sum(t.v0 + t.v1 + t.v2) FROM {{places}} AS p
     LEFT JOIN LATERAL (
@@ -26,8 +26,8 @@ POSTGIS = """
     LEFT JOIN LATERAL (
         SELECT v0, v1, v2 FROM polygons WHERE ST_Intersects(polygon, ST_MakePoint(p.x, p.y))
         LIMIT 1) AS t ON true"""
-# Among the columns, and in a join like the others: there PostgreSQL has a table made for each row,
-# which takes longer than the answer.
+# In the select list, and in a join like the others: there PostgreSQL makes a table for each row, which takes longer than the
+# answer.
 ABACUS = """
     SELECT count(t), sum((t).v0 + (t).v1 + (t).v2)
     FROM (SELECT abacus_locate('mesh', p.x, p.y) AS t FROM {places} AS p OFFSET 0) AS located"""
@@ -102,7 +102,7 @@ class Rows:
                     answers = set()
                     for measurement in measurements:
                         statement = STATEMENTS[measurement["engine"]].format(places=order)
-                        session.run(statement)  # else its memory is as the other engines left it
+                        session.run(statement)  # otherwise its memory is as the other engines left it
                         sample = session.timed(statement)
                         answers.add(sample.pop("printed"))
                         measurement["samples"].append(sample)

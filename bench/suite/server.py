@@ -30,7 +30,7 @@ class Session(psql_session.Session):
 
     def cpu(self):
         """CPU seconds of the backend so far, of all its threads, those that have ended too."""
-        clock = ~self.backend << 3 | 2  # as clock_getcpuclockid() names that of a process
+        clock = ~self.backend << 3 | 2  # the clock's number as clock_getcpuclockid() gives it for a process
         return time.clock_gettime(clock)
 
     def timed(self, sql):
@@ -96,7 +96,7 @@ def create_extension(name):
 
 
 def settings():
-    """Those that the server was told; the others have their defaults."""
+    """The settings that the server was given; the others have their defaults."""
     return json.loads(query(
         "SELECT coalesce(jsonb_object_agg(name, current_setting(name)), '{}') FROM pg_settings"
         " WHERE source IN ('configuration file', 'command line') AND name IN ('shared_buffers',"

@@ -6,7 +6,7 @@ import subprocess
 import paths
 import server
 
-VELOCITY = 1000  # m/s, of which the surface lies in the sediments
+VELOCITY = 1000  # m/s; its surface lies in the sediments
 
 
 class Surfaces:

@@ -40,7 +40,7 @@ def main(folder, runs, value):
         contour.Update()
         sample = {"wall": time.perf_counter() - wall, "cpu": time.process_time() - cpu,
                   "answers": contour.GetOutput().GetNumberOfCells()}
-        if run > 0:  # as ours
+        if run > 0:  # as for Abacus
             samples.append(sample)
     print(json.dumps(samples))
 

@@ -59,7 +59,7 @@ template <int D, int K> void AttributePage<D, K>::check_points(std::size_t point
                     "An attribute page has a coordinate that is not a finite number.");
 }
 
-/// All that names them, and which of their attributes are NULL.
+/// Checks the points, the numbers by which rows name them, and which attributes are NULL.
 template <int D, int K>
 void AttributePage<D, K>::check_owners(std::size_t points, unsigned columns) const {
     for (std::size_t i = 1; i < points; ++i)
@@ -113,7 +113,7 @@ void AttributePageWriter::number_points(const std::uint64_t *rows, std::size_t n
     }
 }
 
-/// The words `first`, `first` + stride, ...; with none of them `words` may be null.
+/// The words `first`, `first` + stride, ...; if n is 0, `words` may be null.
 const std::uint64_t *AttributePageWriter::gather(const std::uint64_t *words, std::size_t first,
                                                  std::size_t n, std::size_t stride) {
     column_.resize(n);
@@ -134,7 +134,7 @@ const std::uint64_t *AttributePageWriter::gather_nulls(const std::uint64_t *rows
     return column_.data();
 }
 
-/// An attribute, with some value of it in place of NULL.
+/// The values of an attribute, where some other value of it replaces each NULL.
 const std::uint64_t *AttributePageWriter::gather_values(const std::uint64_t *rows,
                                                         unsigned attribute, std::size_t n) {
     gather(rows, dimension_ * points_ + attribute, n, stride_);
@@ -167,7 +167,7 @@ std::size_t AttributePageWriter::size(const std::uint64_t *rows, std::size_t n) 
     return size;
 }
 
-/// Bytes grow with rows, nearly as a line: a few guesses along it will do.
+/// The size grows almost linearly with the rows, so a few linear guesses are enough.
 std::size_t AttributePageWriter::count_that_fits(const std::uint64_t *rows, std::size_t n) {
     const std::size_t all = std::min(n, most_written_in_attribute_page);
     std::size_t fits = 0, too_many = all + 1, fit_size = sizeof(AttributePageHeader);
@@ -182,7 +182,7 @@ std::size_t AttributePageWriter::count_that_fits(const std::uint64_t *rows, std:
         } else {
             too_many = guess;
         }
-        // One row takes as much as the others do, up to here.
+        // Assume that one more row takes as much as the rows so far on average.
         const std::size_t each =
             std::max<std::size_t>(1, (bytes - sizeof(AttributePageHeader)) / guess);
         const std::size_t more = (ABACUS_PAGE_BYTES - fit_size) / each;
@@ -203,7 +203,7 @@ void AttributePageWriter::write(const std::uint64_t *rows, std::size_t n) {
                                      points_ > 1 ? static_cast<std::uint32_t>(points()) : 0};
     std::memcpy(bytes_, &header, sizeof header);
     unsigned char *at = bytes_ + sizeof header;
-    // Points on each axis, numbers of those of a row, NULL, attributes.
+    // The points axis by axis, the numbers of each row's points, which values are NULL, attributes.
     constexpr unsigned most_named = 2 * ABACUS_MAX_DIMENSION + 2;
     std::array<ColumnPlan, most_named + AttributeGroups::widest> plans;
     ColumnPlan *plan = plans.data();

@@ -20,10 +20,10 @@ template <int D, int K> Key AttributeGroup<D, K>::end_of_page(const Key &lower) 
     return host_.next(ABACUS_ATTRIBUTE_PAGES, &lower, page) && page.key < end ? page.key : end;
 }
 
-/// Of the page held, which begins at lower_.
+/// Finds the upper end of the page held, which begins at lower_.
 template <int D, int K> void AttributeGroup<D, K>::find_end() {
     upper_ = end_of_page(lower_);
-    // A search for one of these would look in the next page.
+    // A search for such an owner would look in the next page.
     if (count() > 0 && upper_ <= keys_.back())
         throw_corrupted("An attribute page has attributes that another page owns.");
 }
@@ -88,13 +88,13 @@ template <int D, int K> void AttributeGroup<D, K>::assign(std::uint64_t &to, dou
     to = rank;
 }
 
-/// Makes room for a row; its number.
+/// Makes room for a row; returns its number.
 template <int D, int K> std::size_t AttributeGroup<D, K>::insert(const Key &key) {
     std::size_t at = lower_bound(key);
     if (count() >= most_) {
         if (!write_before(at)) {
             if (rows_of_page(count()) == count()) {
-                most_ *= 2; // all of it fits a page
+                most_ *= 2; // they all fit a page
             } else {
                 flush();
                 go_to(key);
@@ -225,8 +225,9 @@ template <int D, int K> void AttributeGroup<D, K>::absorb_next() {
     find_end();
 }
 
-/// Whether what has outgrown its page, and has left full ones behind, goes on with the next page,
-/// which has the key. So a round along the curve leaves no page half full.
+/// If these rows have outgrown their page and full pages were split off, continues with the next
+/// page if it has the key; returns whether it did. So a round along the curve leaves no page half
+/// full.
 template <int D, int K> bool AttributeGroup<D, K>::goes_on_to(const Key &key) {
     if (!dirty_ || shrunk_ || !(upper_ <= key)) return false;
     if (!grown_ && rows_of_page(count()) == count()) return false;
@@ -244,7 +245,7 @@ template <int D, int K> void AttributeGroup<D, K>::flush() {
     if (shrunk_ && writer_.size(rows_.data(), count()) < few_bytes) absorb_next();
     shrunk_ = false;
     if (count() == 0 && (!(lower_ == group_begin(group_)) || upper_ == group_begin(group_ + 1))) {
-        // The page before, if there is one, gets the interval.
+        // The page before, if there is one, takes over the interval.
         at_page_ = false;
         if (location_ != 0) host_.erase(ABACUS_ATTRIBUTE_PAGES, {lower_, nullptr, 0, location_});
         return;
@@ -252,7 +253,7 @@ template <int D, int K> void AttributeGroup<D, K>::flush() {
     for (;;) {
         std::size_t n = count() == 0 ? 0 : rows_of_page(count());
         if (n == count()) break;
-        // The last two share what is left: both have room for what comes.
+        // The last two pages share the remaining rows, so that both have room for more.
         const std::size_t half = count() / 2;
         if (half > 0 && half < n && !(keys_[half - 1] == keys_[half])) n = half;
         write_rows(n);
@@ -306,7 +307,7 @@ template <int D, int K> bool AttributePages<D, K>::erase(const Name &owner, std:
     const Key key = attribute_key<D, K>(owner, code);
     for (unsigned group = 0; group < groups_.count(); ++group)
         if (!pages_[group].erase(key, owner)) {
-            if (group > 0) throw_no_attributes<D, K>(); // others have it
+            if (group > 0) throw_no_attributes<D, K>(); // group 0 has it
             return false;
         }
     return groups_.count() > 0;

@@ -7,15 +7,15 @@ namespace abacus {
 namespace {
 
 constexpr std::size_t fewest_held = 8, most_pages_held = 1 << 16;
-/// Of the keys of a page, as a rule.
+/// What the keys of a page take as a rule.
 constexpr std::size_t key_bytes = most_written_in_attribute_page / 2 * sizeof(Key);
 
-/// As far as a page may be read: a longer one is refused by its size.
+/// Copies at most the largest size of a page. The reader rejects a longer page by its size.
 void copy(const abacus_page &page, std::array<unsigned char, ABACUS_PAGE_BYTES> &bytes) {
     std::memcpy(bytes.data(), page.bytes, std::min(page.size, bytes.size()));
 }
 
-/// The first page from a group on.
+/// Finds the first page of a group or of a later one.
 bool find_first(const Host &host, unsigned group, abacus_page &page) {
     if (group == 0) return host.next(ABACUS_ATTRIBUTE_PAGES, nullptr, page);
     const Key before = predecessor(group_begin(group));
@@ -122,7 +122,7 @@ bool AttributeReader<D, K>::values_if_any(const Name &owner, double *values) {
     for (unsigned group = 0; group < groups_.count(); ++group) {
         const Found found = find(group);
         if (found.held == nullptr) {
-            if (group > 0) throw_no_attributes<D, K>(); // others have it
+            if (group > 0) throw_no_attributes<D, K>(); // group 0 has it
             std::fill_n(values, groups_.attributes(), null_value);
             return false;
         }
@@ -157,7 +157,7 @@ template <int D, int K> void AttributeScan<D, K>::read() {
     const unsigned stored = group_of(key_);
     if (group() >= groups_.count() || (begins && !(key_ == group_begin(stored))))
         throw_corrupted("An attribute page lies where no such page can be.");
-    // The last owner of a page comes before the next page.
+    // All owners of a page come before the next page.
     if (!begins && key_ <= last_)
         throw_corrupted("An attribute page has attributes that another page owns.");
     page_.read(bytes_.data(), size_, stored, groups_.columns(group()));

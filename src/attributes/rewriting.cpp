@@ -8,7 +8,7 @@ namespace abacus {
 
 namespace {
 
-constexpr std::size_t held_bytes = std::size_t{1} << 20; // of pages that are read
+constexpr std::size_t held_bytes = std::size_t{1} << 20; // of pages being read
 constexpr std::size_t key_words = 2;
 
 /// Calls take(owner, values) for all owners, in the order of their keys. Returns how many pages
@@ -53,7 +53,7 @@ void erase_attributes(const Host &host, unsigned first) {
     abacus_page page;
     const Key before = first > 0 ? predecessor(group_begin(first)) : first_key;
     bool more = host.next(ABACUS_ATTRIBUTE_PAGES, first > 0 ? &before : nullptr, page);
-    // From page to page: what has been erased is still in the way of a search for the first one.
+    // Go on from page to page: a new search for the first page would pass all erased ones.
     for (; more && group_of(page.key) < end_of_kind(first);
          more = host.next(ABACUS_ATTRIBUTE_PAGES, &page.key, page)) {
         host.erase(ABACUS_ATTRIBUTE_PAGES, page);

@@ -23,7 +23,7 @@ bool KeyCut::has_one_key(std::uint64_t code) const {
 std::size_t KeyCut::cut_below(std::size_t wanted) {
     std::uint64_t border = least_;
     std::size_t below = 0;
-    // Codes may be of any magnitude: where a bin has too many, the next histogram is of that one.
+    // Codes may be of any magnitude. If a bin has too many, the next histogram covers that bin.
     for (int shift = static_cast<int>(std::bit_width(greatest_ - least_));;) {
         if (shift == 0) return 0;
         shift = std::max(0, shift - histogram_bits);
@@ -35,7 +35,7 @@ std::size_t KeyCut::cut_below(std::size_t wanted) {
         std::uint64_t bin = 0;
         while (below + histogram[bin] <= wanted) below += histogram[bin++];
         border += bin << shift;
-        // Inside of one key there is no nearer cut.
+        // Within one key there is no nearer cut.
         if (below > 0 &&
             (wanted - below <= near_enough * places_.size() || (shift == 0 && has_one_key(border))))
             break;
@@ -51,8 +51,8 @@ std::size_t KeyCut::cut_near(std::size_t wanted) {
     wanted = std::clamp<std::size_t>(wanted, 1, n - 1);
     if (const std::size_t below = cut_below(wanted)) return below;
     std::nth_element(places_.begin(), places_.begin() + wanted, places_.end(), by_key);
-    // Equal keys stay together: all that equal the wanted one go to the upper part, or,
-    // when nothing would be left below, to the lower one.
+    // Equal keys stay together: all keys equal to the wanted one go to the upper part, or to the
+    // lower part if that would be empty otherwise.
     const Key border = places_[wanted].key;
     const auto below =
         static_cast<std::size_t>(std::partition(places_.begin(), places_.begin() + wanted,

@@ -6,7 +6,7 @@ namespace abacus {
 
 namespace {
 constexpr std::size_t largest_batch = 64; // blocks
-// The window of blocks behind: at least so many, and this share of all, in percent.
+// The window of blocks behind: at least this many, and this share of all, in percent.
 constexpr std::size_t least_window = 64, window_share = 15;
 constexpr std::uint64_t in_use = 1024; // operations since the last use
 } // namespace
@@ -23,7 +23,7 @@ void Replacement::choose(const Arena<Block, BlockIndex> &blocks, std::size_t cac
     const auto is_behind = [&](const Block &b) { return b.upper.code <= front_; };
     std::size_t behind = 0;
     for (const Block &b : blocks) behind += b.state == Block::cached && is_behind(b);
-    // A small cache is no more than the window.
+    // A small cache is not larger than the window.
     const bool along_the_curve = front_ != 0 && cached >= 2 * least_window;
     const bool window_is_full = behind > std::max(least_window, cached * window_share / 100);
     candidates_.clear();

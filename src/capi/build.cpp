@@ -19,7 +19,7 @@ struct abacus_build {
         alone.tiny_intervals = 0;
     }
 
-    /// Where something may go with a simplex.
+    /// The stored pages, if simplices have labels or markers that change with them.
     abacus::StoredPages *watch(const abacus_facts &facts) {
         return facts.census.labelled > 0 || facts.census.marked > 0 ? &stored : nullptr;
     }
@@ -30,7 +30,7 @@ struct abacus_build {
     abacus_host alone;
     std::optional<abacus::Host> lone_host;
     abacus::ByDimension<abacus::Build> build;
-    // They go before the build: what a thread has handed over is memory of its crew.
+    // Destroyed before the build: what a thread has handed over is in the memory of its crew.
     std::optional<abacus::ByDimension<abacus::SimplexChanges>> changes;
 };
 
@@ -45,7 +45,7 @@ abacus_status abacus_build_open(const abacus_host *host, const abacus_facts *fac
 
 namespace {
 
-/// Runs change(build, header) on the build of whatever dimension.
+/// Runs change(build, header) on the build of either dimension.
 template <class Change>
 abacus_status run(abacus_build *build, abacus_header *header, abacus_error *error,
                   Change change) noexcept {
@@ -155,7 +155,7 @@ abacus_status abacus_build_log(abacus_build *build, size_t memory, abacus_error 
 
 namespace {
 
-/// As other functions hand it out.
+/// Describes a simplex as other functions return it.
 template <int D> abacus_simplex describe(const abacus::SimplexWords<D> &words) {
     std::array<abacus::Point<D>, D + 1> points;
     abacus::Corners<D> ascending;

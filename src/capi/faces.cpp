@@ -20,7 +20,7 @@ struct abacus_faces {
 
     const abacus::Host host;
     abacus::ByDimension<abacus::FaceScan> faces;
-    double attributes[ABACUS_MAX_ATTRIBUTES]; // of the vertex handed out last
+    double attributes[ABACUS_MAX_ATTRIBUTES]; // of the vertex returned last
 };
 
 abacus_status abacus_faces_open(const abacus_host *host, const abacus_facts *facts,

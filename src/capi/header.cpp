@@ -1,9 +1,9 @@
-// The header row of a mesh, as bytes: little-endian, fixed fields, then the
-// names of the attributes with their types, and last the SRID where there is one. Where simplices
-// have labels or facets markers, the SRID is there in any case, and what is known of these follows.
-// What is newer has one form: all these words, how many vertices share their places, and then the
-// names, unless there are so many that they have rows of their own. A user can write any bytes into
-// these rows, so decoding checks every field; it accepts exactly what encoding can produce.
+// The header row of a mesh as bytes: little-endian, fixed fields, then the names of the attributes
+// with their types, and last the SRID if there is one. If simplices have labels or facets have
+// markers, the SRID is always there, and the facts about labels and markers follow. Newer features
+// have one form: all these words, how many vertices share their places, and then the names, unless
+// there are so many that they have rows of their own. A user can write any bytes into these rows, so
+// decoding checks every field; it accepts exactly the bytes that encoding can produce.
 #include "capi/guard.hpp"
 
 #include <abacus/mesh_header.h>
@@ -18,22 +18,22 @@
 namespace abacus {
 namespace {
 
-/// A header begins with the bytes "ABACUS" and the format of the mesh: of the header and of
-/// all its pages together. The number is raised when any of them changes. Whether vertices have
-/// their attributes in simplex pages or apart follows from the format alone, unless there are
-/// labels or markers, vertices that share their places, or names in rows of their own.
+/// A header begins with the bytes "ABACUS" and the format of the mesh, which covers the header and
+/// all its pages. The number is raised when any of them changes. The format alone says whether
+/// vertices have their attributes in simplex pages or apart, unless there are labels or markers,
+/// vertices that share their places, or names in rows of their own.
 constexpr std::uint64_t name = 0x535543414241, format = 3, format_apart = 4, format_labelled = 5,
                         format_extended = 6;
 constexpr int name_bits = 48;
-/// That of an octree begins with the bytes "OCTREE" and a format of its own.
+/// The header of an octree begins with the bytes "OCTREE" and a format of its own.
 constexpr std::uint64_t octree_name = 0x454552544f43ull, octree_format = 1;
 /// Counts and sequence numbers are bigint in the database, and so is the sum of two.
 constexpr std::uint64_t count_limit = std::uint64_t{1} << 62;
 
-// The counters are fields of one type without gaps: they go as an array.
+// The counters are fields of one type without gaps, so they are stored as an array.
 constexpr std::size_t counter_count = sizeof(abacus_counters) / sizeof(std::uint64_t);
 static_assert(sizeof(abacus_counters) == counter_count * sizeof(std::uint64_t));
-/// Headers may have been written before the last of them were counted.
+/// Older headers do not have the last counters.
 constexpr std::size_t least_counters = offsetof(abacus_counters, passes) / sizeof(std::uint64_t);
 
 /// A name of 63 bytes at most, and zeros; then the type of the column. That of doubles is 0, so
@@ -198,7 +198,7 @@ bool is_wide(const abacus_columns &columns) {
     return columns.attributes > ABACUS_MAX_PAGE_ATTRIBUTES ||
            names_of(columns) > ABACUS_HEADER_NAMES;
 }
-/// So many are in a row.
+/// How many names a row has.
 constexpr unsigned names_in_row = ABACUS_PAGE_BYTES / ABACUS_NAME_BYTES;
 unsigned first_name(const abacus_columns &columns, unsigned row) {
     return std::min(row * names_in_row, names_of(columns));
@@ -218,7 +218,7 @@ template <class Facts, class Visit> void visit_label_fields(Facts &facts, Visit 
     visit(columns.inherits);
 }
 
-/// What only the latest format can tell.
+/// Whether the facts need the latest format.
 bool is_extended(const abacus_facts &facts) {
     return facts.census.split > 0 || is_wide(facts.columns);
 }
@@ -344,7 +344,7 @@ void decode(const unsigned char *bytes, std::size_t size, abacus_header &header)
         throw_corrupted("The header has no attributes, but says that they are in separate pages.");
 }
 
-/// An error names what the bytes say they are.
+/// Decodes a header. An error names the kind of object that the bytes claim to be.
 void decode_named(const unsigned char *bytes, std::size_t size, abacus_header &header) {
     try {
         decode(bytes, size, header);
@@ -358,8 +358,9 @@ void decode_named(const unsigned char *bytes, std::size_t size, abacus_header &h
 } // namespace abacus
 
 uint32_t abacus_are_apart(uint32_t dimension, uint32_t attributes) {
-    // By bytes on disk: heights in hundredths and doubles of all bits, of points at random, take
-    // less room apart from 4 to 6 attributes on in the plane, from 2 to 3 on in space.
+    // Measured in bytes on disk, for points at random, with heights in hundredths and with doubles
+    // of all bits: attributes take less room apart from 4 to 6 of them on in the plane, from 2 to 3
+    // on in space.
     return attributes > (dimension == 2 ? 4 : 2);
 }
 

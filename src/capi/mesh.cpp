@@ -11,7 +11,7 @@
 
 namespace {
 
-/// Calls answer(reader, point), which tells whether there is one.
+/// Calls answer(reader, point), which returns whether there is an answer.
 template <class Answer>
 abacus_status answer_at(abacus_mesh *mesh, const double *point, abacus_error *error,
                         Answer answer) {

@@ -1,4 +1,4 @@
-// Octrees that are asked about places, behind the C interface.
+// Questions to octrees about places, behind the C interface.
 #include "octree/octree_interpolation.hpp"
 #include "octree/octree_nearest.hpp"
 #include "octree/octree_places.hpp"

@@ -1,4 +1,4 @@
-// Octrees that are read, behind the C interface.
+// Reading octrees, behind the C interface.
 #include "octree/octree_nodes.hpp"
 #include "octree/octree_scan.hpp"
 

@@ -1,4 +1,4 @@
-// Octrees cut into triangles or tetrahedra, behind the C interface.
+// Octrees as triangles or tetrahedra, behind the C interface.
 #include "octree/octree_simplices.hpp"
 
 #include "capi/dispatch.hpp"

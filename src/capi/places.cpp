@@ -41,7 +41,7 @@ public:
     }
 
 private:
-    mutable SimplexLabels<D> labels_; // of the session's thread; what it has read changes no answer
+    mutable SimplexLabels<D> labels_; // for the session's thread; reading changes no answer
     const abacus_place_report report_;
     void *const context_;
 };
@@ -80,7 +80,7 @@ public:
         : interpolation_(interpolation), report_(report), context_(context) {}
 
     std::size_t words() const override {
-        // A place among uniform vertices has 6 natural neighbours, in space 16.
+        // A place among uniform vertices has 6 natural neighbours in the plane, 16 in space.
         const std::size_t weights =
             interpolation_.method == ABACUS_NATURAL ? (D == 2 ? 8 : 20) : D + 1;
         return 1 + weights * sizeof(abacus_weight) / 8;

@@ -13,9 +13,9 @@ struct abacus_voronoi {
         : host(*table), ring(host), cells(host, facts, window, cache_bytes) {}
 
     const abacus::Host host;
-    abacus::Arena<double> ring; // handed out last
+    abacus::Arena<double> ring; // returned last
     abacus::ByDimension<abacus::Voronoi> cells;
-    bool is_in_cell = false; // of facets: where the next one is
+    bool is_in_cell = false; // whether facets are being read: where the next one is
     std::size_t face = 0, corner = 0;
 };
 
@@ -24,7 +24,7 @@ namespace {
 
 constexpr double endless = std::numeric_limits<double>::infinity();
 
-/// Whether a ring has an end.
+/// Whether no corner of a ring is at infinity.
 template <int D>
 bool is_finite(const CellShape<D> &shape, const typename CellShape<D>::Face &face) {
     for (std::size_t i = face.begin; i < face.end; ++i)
@@ -59,7 +59,7 @@ void fill(abacus_voronoi &voronoi, const Voronoi<D> &cells, abacus_voronoi_cell 
     cell.ring = voronoi.ring.data();
 }
 
-/// Describes a facet whose points are in the ring, unless it has no end.
+/// Describes a facet whose points are in the ring, unless it is unbounded.
 template <int D>
 void name(const Voronoi<D> &cells, int label, double size, bool is_bounded, abacus_voronoi &voronoi,
           abacus_voronoi_facet &facet) {
@@ -74,7 +74,7 @@ void name(const Voronoi<D> &cells, int label, double size, bool is_bounded, abac
     facet.ring = voronoi.ring.data();
 }
 
-/// The next facet of the cell at hand: an edge of its only face.
+/// The next facet of the current cell: an edge of its only face.
 bool next_facet(abacus_voronoi &voronoi, const Voronoi<2> &cells, abacus_voronoi_facet &facet) {
     const auto &corners = cells.shape().corners();
     while (voronoi.corner < corners.size()) {

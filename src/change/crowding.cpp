@@ -39,7 +39,8 @@ public:
     }
 
 private:
-    /// Looks into a page of the widest stretch; false if there is none, or not where it should be.
+    /// Reads a page of the widest stretch; false if there is none, or if it is not where it should
+    /// be.
     bool next() {
         Stretch *widest = std::max_element(unseen_.begin(), unseen_.end());
         const Stretch stretch = *widest;

@@ -12,7 +12,7 @@ namespace abacus {
 
 namespace {
 constexpr std::size_t poll_every = 256;     // points
-constexpr std::uint64_t told_effort = 1024; // of removals: then others get them
+constexpr std::uint64_t told_effort = 1024; // of removals, after which a thread reports it
 } // namespace
 
 template <int D> AttributePages<D> *Interval<D>::attributes_apart() {
@@ -35,7 +35,7 @@ Interval<D>::Interval(const Host &host, const abacus_facts &facts, std::uint64_t
 
 namespace {
 
-/// Outside of searches sound pages lead to no other interval.
+/// Outside of searches, sound pages lead to no other interval.
 template <class Change> void within(Change change) {
     try {
         change();
@@ -75,12 +75,12 @@ template <int D>
 void Interval<D>::insert(const Batch &batch, std::size_t from, std::size_t to, bool counts_crowded,
                          std::atomic<std::uint64_t> &done, Results &results) {
     cache_.expect_last_pass(true);
-    std::size_t put_off = to; // the last one
+    std::size_t put_off = to; // the last point put off
     each(from, to, done, [&](std::size_t i) {
         const std::uint64_t *const record = batch.record(i);
         const Point<D> p = record_point<D>(record);
         Inserted inserted = Inserted::put_off;
-        // Equal points have one code, and a run may have others between them.
+        // Equal points have the same code, and other points of a run may lie between them.
         if (put_off == to || batch.code(put_off) != batch.code(i))
             inserted = insertion_.insert_within(p, batch.code(i), record_id(record),
                                                 record_attributes<D>(record));
@@ -105,7 +105,7 @@ void Interval<D>::remove(const Batch &batch, std::size_t from, std::size_t to, c
                          std::atomic<std::uint64_t> &done, Results &results) {
     Leaving leaving(host_, how.want_bytes, how.exactly, facts_.columns.attributes);
     RepeatedPoints<D> repeated(host_, cache_.domain(), facts_.columns.attributes);
-    std::uint64_t effort = 0, dealt = 0; // that others do not know of
+    std::uint64_t effort = 0, dealt = 0; // not reported yet
     each(from, to, done, [&](std::size_t i) {
         std::size_t end = i;
         const Point<D> p = record_point<D>(batch.record(i));

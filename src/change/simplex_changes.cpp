@@ -11,7 +11,7 @@ namespace {
 constexpr std::size_t log_share = 4, threads_share = 4;
 /// For tests.
 constexpr std::size_t tiny_log = 1;
-/// A thread looks so often whether it has to end while it waits.
+/// A waiting thread checks this often whether it has to end.
 constexpr std::chrono::milliseconds longest_wait{20};
 
 } // namespace

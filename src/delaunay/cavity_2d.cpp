@@ -12,8 +12,8 @@ void Cavity<2>::find(const Point<2> &p, Handle first) {
     inside_.clear();
     rim_.clear();
     add(first);
-    // The edges opposite the corners 0, 1, 2 in turn, from the top; at the bottom, where the
-    // last one ends.
+    // The edges opposite the corners 0, 1, 2 from the top down. The bottom of the stack has the
+    // vertex at which the last edge ends.
     stack_.clear();
     Edge *const bottom = stack_.extend(4), *top = bottom;
     for (int i = 3; i >= 0; --i, ++top) {
@@ -43,7 +43,8 @@ void Cavity<2>::find(const Point<2> &p, Handle first) {
         top[0].begin = top->apex;
         top[0].cross = top->cross_cb;
         top[0].vertex = cache_.simplex(h).vertex[facet];
-        // Neither waits for the other, and the results are known by the time they are needed.
+        // The two calls do not wait for each other, and their results are ready when they are
+        // needed.
         look_beyond(top[1], make_link(h, next), top[0].begin, p);
         look_beyond(top[0], make_link(h, last), top[-1].begin, p);
         ++top;

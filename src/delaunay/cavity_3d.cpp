@@ -7,9 +7,10 @@ namespace abacus {
 
 namespace {
 
-/// Where corners a, b, c, u are in a tetrahedron whose corner u is in slot [u] and a in the
-/// first, second or third slot, as u sees them counterclockwise, of the others. From
-/// outside, across a, b, c, these are counterclockwise, so u sees them clockwise.
+/// The slots of the corners a, b, c, u in a tetrahedron whose corner u is in slot [u]. The second
+/// index says whether a is in the first, second or third of the other slots, in their
+/// counterclockwise order as seen from u. Seen from outside, across the facet, a, b, c are
+/// counterclockwise, so u sees them clockwise.
 constexpr std::array<std::array<std::array<std::uint8_t, 4>, 3>, 4> slots_beyond = [] {
     constexpr std::uint8_t others[4][3] = {{2, 1, 3}, {0, 2, 3}, {1, 0, 3}, {0, 1, 2}};
     std::array<std::array<std::array<std::uint8_t, 4>, 3>, 4> slots{};
@@ -36,7 +37,7 @@ void Cavity<3>::make_room() {
 }
 
 inline std::uint32_t Cavity<3>::add_corner(VertexIndex v, const SeenPoint<3> &point) {
-    // Whether it is new is hard to predict, so it is written in either case.
+    // Whether it is new is hard to predict, so its values are written in either case.
     const std::uint32_t number = cache_.number_in_room(corners_, v);
     if (number >= seen_.capacity()) [[unlikely]]
         make_room();
@@ -84,12 +85,12 @@ inline std::size_t Cavity<3>::look_beyond(std::size_t at, Batch &batch) {
     batch.size = 0;
     for (std::size_t n = 0; n < facets; ++n) {
         const Handle h = link_simplex(outer[n]);
-        Beyond &beyond = batch.beyond[batch.size]; // written anew if it does not count
+        Beyond &beyond = batch.beyond[batch.size]; // overwritten if it does not count
         beyond.outer = outer[n];
         beyond.facet = static_cast<std::uint32_t>(at + n);
         beyond.vertex = cache_.simplex(h).vertex[link_facet(outer[n])];
         __builtin_prefetch(&cache_.point(beyond.vertex));
-        batch.size += mesh_.marks.get(h) != Marks::inside; // else back from within
+        batch.size += mesh_.marks.get(h) != Marks::inside; // otherwise the way leads back inside
     }
     return facets;
 }
@@ -119,8 +120,8 @@ void Cavity<3>::test_exactly(Batch &batch, const Point<3> &p) {
     for (std::size_t n = 0; n < batch.size; ++n) {
         Beyond &beyond = batch.beyond[n];
         if (beyond.test.is_sure) continue;
-        // Several facets of this batch and of those before may lead to it. So expensive a
-        // test is not made twice.
+        // Several facets of this batch and of earlier ones may lead to this tetrahedron. The test
+        // is expensive, so it is not repeated.
         const Handle h = link_simplex(beyond.outer);
         const Beyond *same = batch.beyond.data();
         while (link_simplex(same->outer) != h) ++same;
@@ -163,7 +164,7 @@ void Cavity<3>::begin(const Point<3> &p, Handle first) {
     edge[0] = cross(seen_[0], seen_[1]);
     edge[1] = cross(seen_[0], seen_[2]);
     edge[2] = cross(seen_[1], seen_[2]);
-    // One facet from both sides: as if the tetrahedron had been entered across it.
+    // One facet from both sides, as if the search had entered the tetrahedron across it.
     Facet *const facet = facets_.extend(2);
     facet[0] = {unset, {}, -1, {1, 0, 2}, {0, 2, 1}};
     facet[1] = {make_link(first, 3), {0, 1, 2}, 1, {0, 1, 2}, {0, 1, 2}};
@@ -195,8 +196,8 @@ void Cavity<3>::begin(const Point<3> &p, Handle first) {
     created[2] = {make_link(h, in[1]), {in[2], in[0], in[3]}, -1, {c, a, u}, {ac, cu, au}};
 }
 
-/// Takes the marks away. A search that has found nothing yet may have left those of the one before,
-/// which are gone: the lists are emptied.
+/// Removes the marks, and empties the lists: a search that has found nothing yet may still have the
+/// lists of the one before.
 void Cavity<3>::give_up() {
     for (const Handle h : inside_) mesh_.marks.set(h, Marks::none);
     for (const RimFacet &facet : rim_) mesh_.marks.set(link_simplex(facet.outer), Marks::none);
@@ -235,14 +236,14 @@ inline Handle Cavity<3>::create(const RimFacet &rim, VertexIndex v, std::uint64_
     const auto corner = facet.corner;
     const Handle h =
         cache_.allot(std::max({code, codes_[corner[0]], codes_[corner[1]], codes_[corner[2]]}));
-    // v lies on the same side as the vertex in whose place it comes, so the orientation stays,
-    // and a ghost's point at infinity stays last.
+    // v lies on the same side as the vertex that it replaces, so the orientation stays, and a
+    // ghost's point at infinity stays last.
     const int opposite = link_facet(facet.inner);
     cache_.set_corner(h, opposite, v);
     for (int i = 0; i < 3; ++i) {
         cache_.set_corner(h, facet.slot[i], corners_[corner[i]]);
         cache_.acquire(corners_[corner[i]], 1);
-        // The facets besides the rim's: each has v and one edge of that.
+        // The facets besides the rim's: each has v and one edge of the rim's facet.
         ridges.add(corner[(i + 1) % 3], corner[(i + 2) % 3], make_link(h, facet.slot[i]));
     }
     cache_.connect(make_link(h, opposite), rim.outer);

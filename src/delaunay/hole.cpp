@@ -9,8 +9,8 @@ namespace abacus {
 
 namespace {
 
-/// The point at infinity in the place of a corner, and brought to the end of the simplex
-/// by two exchanges, which keep the orientation.
+/// Puts the point at infinity in the place of a corner and brings it to the end of the simplex by
+/// two exchanges, which keep the orientation.
 template <int D>
 std::array<VertexIndex, D + 1> with_infinity(std::array<VertexIndex, D + 1> vertices, int corner) {
     vertices[corner] = infinite_vertex;
@@ -24,7 +24,7 @@ std::array<VertexIndex, D + 1> with_infinity(std::array<VertexIndex, D + 1> vert
 /// Whether p and q, in one plane with a and b, lie on different sides of the line through
 /// a and b. p does not lie on it.
 bool are_apart(const Point<3> &a, const Point<3> &b, const Point<3> &p, const Point<3> &q) {
-    for (int i = 0; i < 3; ++i) { // where the projection of the plane is not a line
+    for (int i = 0; i < 3; ++i) { // in the first projection where the plane does not become a line
         const int j = (i + 1) % 3;
         const Point<2> a2{a[i], a[j]}, b2{b[i], b[j]};
         const int side = orientation(a2, b2, {p[i], p[j]});
@@ -47,8 +47,8 @@ template <int D> std::uint64_t Hole<D>::fill(const Star<D> &star) {
     else
         wrap(star);
     mesh_.count(static_cast<std::int64_t>(created_ - ghosts_), static_cast<std::int64_t>(ghosts_));
-    // Cutting looks at some of the neighbours for each simplex, wrapping at all.
-    constexpr std::size_t looks = D == 2 ? 4 : 2; // that cost what a simplex does
+    // For each simplex, cutting looks at some of the neighbours and wrapping at all of them.
+    constexpr std::size_t looks = D == 2 ? 4 : 2; // this many cost as much as a simplex
     return created_ + (tried > 0 ? tried : created_ * star.link().size() / looks);
 }
 
@@ -87,7 +87,7 @@ template <int D> void Hole<D>::cut(const Star<D> &star) requires(D == 2) {
         chains_.pop_back();
         const std::uint32_t middle = apex(link, chain);
         const VertexIndex a = link[chain.first], b = link[middle], c = link[chain.last];
-        // The point at infinity begins its polygon, but ends its triangle.
+        // The point at infinity is first in its polygon, but last in its triangle.
         const bool ghost = a == infinite_vertex;
         const Handle h = create(ghost ? Vertices{b, c, a} : Vertices{a, b, c});
         const int at_a = ghost ? 2 : 0, at_b = ghost ? 0 : 1, at_c = ghost ? 1 : 2;
@@ -113,7 +113,7 @@ std::uint32_t Hole<D>::apex(const Arena<VertexIndex> &link, const Chain &chain) 
     corners[0] = &cache_.point(link[first]);
     corners[2] = &cache_.point(link[last]);
     if (link[first] == infinite_vertex) {
-        // The next vertex of the hull: no other one lies beyond the edge to it.
+        // The next vertex of the hull: no other vertex lies beyond the edge to it.
         std::uint32_t best = last - 1;
         for (std::uint32_t n = last - 2; n > first; --n) {
             const Simplex<D> edge{{link[best], link[last], infinite_vertex}, {}};
@@ -160,7 +160,7 @@ typename Hole<D>::Vertices Hole<D>::best_on_finite(const Facet &facet) const req
     for (int i = 0; i <= D; ++i)
         if (i != rim.facet) corners[i] = &cache_.point(rim.vertex[i]);
     const auto &on_facet = facet.vertices.vertex;
-    const Candidate *best = nullptr; // the point at infinity
+    const Candidate *best = nullptr; // null: the point at infinity
     for (const Candidate &candidate : candidates_) {
         if (std::find(on_facet.begin(), on_facet.end(), candidate.vertex) != on_facet.end())
             continue;
@@ -177,9 +177,9 @@ typename Hole<D>::Vertices Hole<D>::best_on_finite(const Facet &facet) const req
     return vertices;
 }
 
-// Around an edge of the hull the candidates have an order, as long as they lie within less
-// than a half turn. Candidates in the plane of the hull facet beyond the edge, on its own
-// side, are a half turn away.
+// The candidates around an edge of the hull have an order as long as they lie within less than a
+// half turn. Candidates in the plane of the hull facet beyond the edge, on its own side, are a half
+// turn away.
 template <int D>
 typename Hole<D>::Vertices Hole<D>::best_on_infinite(const Facet &facet) const requires(D == 3) {
     const Rim<D> &rim = facet.rim;

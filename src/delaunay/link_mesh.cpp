@@ -9,10 +9,10 @@ namespace abacus {
 
 namespace {
 
-/// With fewer neighbours their order does not matter.
+/// With fewer neighbours the order does not matter.
 constexpr std::size_t few_neighbours = 24;
 
-/// Half of all numbers are in round 0, the last one, a fourth in round -1, and so on.
+/// Half of all numbers are in round 0, the last one, a quarter in round -1, and so on.
 int round_of(std::uint64_t n) {
     const std::uint64_t draw = (n + 1) * 0x9e3779b97f4a7c15ull;
     return -std::countl_zero((draw ^ (draw << 32)) | 1);
@@ -76,7 +76,7 @@ template <int D> Handle LinkMesh<D>::create(const Simplex<D> &s) {
     return h;
 }
 
-/// The first simplex and its ghosts; of these the ball, and cones instead of the others.
+/// The first simplex and its ghosts. The ball keeps some of them; cones replace the others.
 template <int D> void LinkMesh<D>::start() {
     made_ = 0;
     cells_.clear();
@@ -114,7 +114,7 @@ template <int D> bool LinkMesh<D>::is_in_conflict(const Simplex<D> &s, const Poi
     return side == Side::inside;
 }
 
-/// The cone in which q sees p, or a ghost's beyond whose facet at q p lies.
+/// The cone in which q sees p, or the ghost's cone if p lies beyond its facet at q.
 template <int D> Handle LinkMesh<D>::locate(const Point<D> &p) const {
     Handle h = cone_;
     if (cells_[h].simplex.is_ghost()) h = link_simplex(cells_[h].simplex.link[D]);
@@ -170,8 +170,8 @@ template <int D> void LinkMesh<D>::fill(VertexIndex v) {
     if (cone_ == no_handle) throw_no_triangulation();
 }
 
-/// Of a killed simplex: new ones on its facets to those that stay, in which v takes the place of
-/// the corner opposite.
+/// Creates new simplices on the facets of a killed simplex to neighbours that stay: v replaces the
+/// corner opposite.
 template <int D> void LinkMesh<D>::join(Handle h, VertexIndex v) {
     for (int i = 0; i <= D; ++i) {
         const Link outer = cells_[h].simplex.link[i];
@@ -184,8 +184,8 @@ template <int D> void LinkMesh<D>::join(Handle h, VertexIndex v) {
     }
 }
 
-/// Finds the neighbour of the new simplex on facet `rim` of a killed one, across its own facet
-/// `facet`: in a turn around the ridge that both facets share, through what has been killed.
+/// Finds the neighbour of the new simplex on facet `rim` of a killed one, across the new one's
+/// facet `facet`. Turns around the ridge that both facets share, through killed simplices.
 template <int D> void LinkMesh<D>::meet(Handle h, int rim, int facet) {
     const auto created_on = [&](Handle killed, int i) {
         const Link outer = cells_[killed].simplex.link[i];

@@ -6,8 +6,8 @@
 namespace abacus {
 
 namespace {
-// Removals come in any order, so what lies before a vertex on the curve is not finished. A
-// block that becomes full is cut at its median, not at the vertex.
+// Removals come in any order, so the curve before a vertex is not finished. A full block is cut at
+// its median, not at the vertex.
 constexpr std::uint64_t anywhere = 0;
 constexpr Link nowhere = unset;
 } // namespace
@@ -27,7 +27,8 @@ template <int D> Link Removal<D>::find(const Point<D> &p) {
 }
 
 template <int D> bool Removal<D>::collapses() const {
-    // If a finite simplex is left, its vertices are. If none is, the others are the link.
+    // If a finite simplex remains, so do its vertices. If none does, the other vertices are the
+    // link.
     const std::size_t finite = star_.simplices().size() - star_.ghosts();
     std::array<VertexIndex, D + 1> independent;
     return static_cast<std::int64_t>(finite) == mesh_.simplices() && star_.is_flat(independent);
@@ -90,8 +91,8 @@ template <int D> bool Removal<D>::find_star(const Point<D> &p, Leaving *want) {
     return true;
 }
 
-// The hole's simplices have D + 1 corners of the link. No code of these is above the interval, as
-// those of the star's simplices are not. So it is enough if no more than D are below it.
+// The hole's simplices have D + 1 corners from the link. None of their codes is above the interval,
+// as no code of the star's simplices is. So it is enough if no more than D are below it.
 template <int D> bool Removal<D>::stays_within() const {
     int below = 0;
     for (const VertexIndex v : star_.link()) below += !cache_.keeps(cache_.vertices()[v].code);

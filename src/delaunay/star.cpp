@@ -28,8 +28,8 @@ template <int D> void Star<D>::add(Handle h, int corner) {
     if (simplices_.size() % 4096 == 0) cache_.poll();
 }
 
-// In 2D counterclockwise, from each triangle across the edge in which the next begins.
-// Links lead both ways, so the turn ends where it began.
+// In 2D counterclockwise: from each triangle across the edge where the next one begins. Links lead
+// both ways, so the turn ends where it began.
 template <int D> void Star<D>::turn_around(Handle first, int corner) {
     Handle h = first;
     std::size_t infinity = 0;
@@ -41,8 +41,7 @@ template <int D> void Star<D>::turn_around(Handle first, int corner) {
         link_.push_back(neighbour);
         const Link next = cache_.cross(h, begin);
         h = link_simplex(next);
-        // In the next triangle the neighbour after the next lies opposite the edge, and
-        // the vertex follows it.
+        // In the next triangle the new neighbour lies opposite the edge, and the vertex follows it.
         corner = link_facet(next) == D ? 0 : link_facet(next) + 1;
     } while (h != first);
     if (infinity > 0) {
@@ -51,13 +50,13 @@ template <int D> void Star<D>::turn_around(Handle first, int corner) {
     }
 }
 
-// In 3D across every facet that has the vertex.
+// In 3D across every facet at the vertex.
 template <int D> void Star<D>::search_around(Handle first) {
     flood_.around(cache_, first, vertex_, [&](Handle h) {
         add(h, cache_.simplex(h).index_of(vertex_));
         return true;
     });
-    // Only now, since loading numbers vertices in its own way.
+    // Not earlier, since loading numbers vertices in its own way.
     numbering_.clear();
     for (const Rim<D> &rim : rim_)
         for (int i = 0; i <= D; ++i)

@@ -14,7 +14,7 @@ namespace {
     throw Error(ABACUS_ERROR_ARGUMENT, message, {}, hint);
 }
 
-/// A vector of length 1; 0 of one without length.
+/// The unit vector in a direction; 0 for a vector without length.
 Point<3> unit(Point<3> a) {
     const double largest = std::max({std::fabs(a[0]), std::fabs(a[1]), std::fabs(a[2])});
     if (!(largest > 0)) return {};
@@ -24,7 +24,7 @@ Point<3> unit(Point<3> a) {
     return {a[0] / length, a[1] / length, a[2] / length};
 }
 
-/// From one point to another; half of it does not overflow.
+/// Half the way from one point to another, which does not overflow.
 Point<3> half_way(const Point<3> &from, const Point<3> &to) {
     return {to[0] * 0.5 - from[0] * 0.5, to[1] * 0.5 - from[1] * 0.5, to[2] * 0.5 - from[2] * 0.5};
 }
@@ -37,7 +37,7 @@ Point<3> middle_of(const Box<3> &box) {
     return middle;
 }
 
-/// So far away from a point, in a direction, that a ball around the scene fills the picture.
+/// An eye in a direction from a point, so far away that a ball around the scene fills the picture.
 Point<3> far_enough(const Box<3> &scene, const Point<3> &toward, const Point<3> &direction,
                     double field_of_view) {
     const Point<3> radius = half_way(scene.lower, scene.upper);
@@ -52,12 +52,12 @@ Point<3> far_enough(const Box<3> &scene, const Point<3> &toward, const Point<3> 
     return eye;
 }
 
-// As near to the eye as this part of the way to the farthest point nothing is seen: there the
-// picture would have to show what is a million times as large as it.
+// Nothing nearer to the eye than this share of the way to the farthest point is drawn: it would
+// appear a million times larger.
 constexpr double nearest_part = 1e-6;
 constexpr Point<3> from_south_west{-1, -2, 1};
 constexpr double shape_of_perspective = 0.75; // height to width
-// Beyond that places are not exact, but what is there is not in the picture either.
+// Beyond this, places are not exact, but they are not in the picture either.
 constexpr double farthest_place = 0x1p58;
 
 std::int64_t place(double x) {
@@ -88,7 +88,7 @@ Camera::Camera(const abacus_camera &camera, const abacus_drawing &drawing, const
     }
     set_directions(camera, ahead);
     origin_ = has_perspective_ ? eye : middle;
-    // The farthest corner of the scene is seen at 1 or so.
+    // The unit is such that the farthest corner of the scene is at a distance of about 1.
     double farthest = 0;
     for (int i = 0; i < 3; ++i)
         farthest = std::max({farthest, std::fabs(scene.lower[i] * 0.5 - origin_[i] * 0.5),
@@ -176,7 +176,7 @@ std::pair<double, double> Camera::depths_within(const Box<3> &box, std::int32_t 
     const Point<2> at = ray(x, y);
     double from = nearest_, to = std::numeric_limits<double>::infinity();
     for (int i = 0; i < 3; ++i) {
-        // Where the ray is on this axis: begin + depth * step.
+        // On this axis the ray is at begin + depth * step.
         const double aside = axis_[0][i] * at[0] + axis_[1][i] * at[1];
         const double begin = has_perspective_ ? 0 : aside;
         const double step = has_perspective_ ? axis_[2][i] + aside : axis_[2][i];

@@ -14,16 +14,15 @@ namespace {
 constexpr double full_width = 1.0;
 // Radius of the inscribed circle, in pixels, at which the width has halved.
 constexpr double half_radius = 2.0;
-// Below this radius edges are no longer told apart: their ink is a tone.
+// Below this radius edges are not drawn one by one: their ink is a tone.
 constexpr double tone_radius = 0.6;
-// Width of contours, pixels; and how many the range may have: more would not be told apart.
+// Width of contours, pixels; and the most contours of a range: more could not be distinguished.
 constexpr double contour_width = 1.0;
 constexpr int most_contours = 1000;
 
-// A triangle with an inscribed circle of radius r has a perimeter of 2 area / r, and
-// by that ratio r is defined for other patches; with half an edge's width on its own
-// side, edges of width w cover w / r of it. With this width that is at most
-// full_width / half_radius, for any patch.
+// A triangle with an inscribed circle of radius r has a perimeter of 2 area / r. For other patches
+// this ratio defines r. A patch has half the width of its edges on its own side, so edges of width
+// w cover w / r of it. With this width that is at most full_width / half_radius for any patch.
 double edge_width(double radius) { return full_width * radius / (radius + half_radius); }
 
 double edge_tone(double radius) { return full_width / (radius + half_radius); }
@@ -46,12 +45,12 @@ double area_of(const Patch &p) {
     return 0.5 * twice;
 }
 
-/// What a patch has at its corners as a function of the position.
+/// The values at a patch's corners as a function of the position.
 class Ramp {
 public:
     Ramp(const Patch &p, const double (&value)[Patch::most])
         : start_{p.corner[0][0], p.corner[0][1]}, at_start_(value[0]) {
-        // Three corners tell all of it; the largest triangle tells it best.
+        // Three corners determine it; those of the largest triangle do so best.
         int c = 2;
         for (int i = 3; i < p.corners; ++i)
             if (std::fabs(p.turn(0, i - 1, i)) > std::fabs(p.turn(0, c - 1, c))) c = i;
@@ -65,8 +64,8 @@ public:
         low_ = *std::min_element(value, value + p.corners);
         high_ = *std::max_element(value, value + p.corners);
     }
-    /// Pixels on the outline, whose centres may lie outside, stay within the values of
-    /// the corners.
+    /// The centres of pixels on the outline may lie outside. Their values stay within those of the
+    /// corners.
     double operator()(double x, double y) const {
         const double at = at_start_ + slope_[0] * (x - start_[0]) + slope_[1] * (y - start_[1]);
         // NaN passes both comparisons unchanged.
@@ -80,16 +79,16 @@ private:
 /// A value far beyond the range stays far, but differences and products stay finite.
 double bounded(double value) { return std::fmin(std::fmax(value, -1e30), 1e30); }
 
-/// The same of a height, which has no range.
+/// The same for a height, which has no range.
 double bounded_height(double value) { return std::fmin(std::fmax(value, -1e270), 1e270); }
 
-// Shares below the resolution of the coverage must not be blown up to a patch.
+// Shares below the resolution of the coverage must not be inflated to a patch.
 constexpr double most_density = 1e6;
 
 } // namespace
 
 std::int32_t Canvas::margin_of(const abacus_drawing &drawing) {
-    return is_shaded(drawing) ? Relief::reach : 2; // half of a line, and what it is off by
+    return is_shaded(drawing) ? Relief::reach : 2; // half of a line, and its inaccuracy
 }
 
 Canvas::Canvas(const Host &host, const abacus_drawing &drawing, double low, double high,
@@ -169,10 +168,10 @@ void Canvas::add(const Patch &patch) {
 }
 
 double Canvas::density(double spacing) const {
-    // Two triangles a vertex.
+    // There are two triangles for each vertex.
     const double x = spacing * frame_.pixels_per_unit(0), y = spacing * frame_.pixels_per_unit(1);
     const double density = 2 / (x * y);
-    return density < most_density ? density : most_density; // also where there is no number
+    return density < most_density ? density : most_density; // also if it is NaN
 }
 
 void Canvas::fill(const Patch &patch, const double (&heights)[Patch::most], double area,
@@ -199,8 +198,7 @@ void Canvas::outline(const Patch &p, double width) {
         raster_.line(p.corner[j], p.corner[i], width, ink);
 }
 
-// A corner at a level counts as above it. So a level along an edge is drawn once, by the patch
-// below.
+// A corner at a level counts as above it. So only the patch below draws a level along an edge.
 void Canvas::contour(const Patch &p, const double (&values)[Patch::most]) {
     const double interval = drawing_.contour_interval;
     const double *const end = values + p.corners;
@@ -210,7 +208,7 @@ void Canvas::contour(const Patch &p, const double (&values)[Patch::most]) {
         contours_[static_cast<std::size_t>(y) * width_ + x] += static_cast<float>(covered);
     };
     const double first = std::floor(least / interval);
-    const double count = std::floor(most / interval) - first; // those in the range, and one below
+    const double count = std::floor(most / interval) - first; // levels in the range, and one below
     for (int n = 0; n <= count; ++n) {
         const double level = (first + n) * interval;
         double at[2][2];

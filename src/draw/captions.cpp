@@ -13,7 +13,7 @@ namespace abacus {
 
 namespace {
 
-/// Sizes grow with the picture, in which a caption shall not be lost.
+/// Sizes grow with the picture, so that a caption remains readable.
 double scale_of(const Picture &picture) {
     return std::clamp(std::min(picture.width(), picture.height()) / 500.0, 0.8, 4.0);
 }
@@ -27,7 +27,7 @@ void choose(cairo_t *pen, std::uint32_t rgb, double alpha = 1) {
 
 void choose_ink(cairo_t *pen) { choose(pen, 0x1c2a2c); }
 
-/// What the caption is read against.
+/// A light background for the caption.
 void panel(cairo_t *pen, double x, double y, double width, double height) {
     choose(pen, 0xffffff, 0.82);
     cairo_rectangle(pen, std::floor(x), std::floor(y), std::ceil(width), std::ceil(height));
@@ -105,7 +105,7 @@ void add_legend(Picture &picture, const Palette &palette, double low, double hig
 void add_scale_bar(Picture &picture, double pixels_per_unit, const char *unit) {
     const double s = scale_of(picture), letters = letter_height(s), margin = 10 * s, pad = 8 * s;
     const double most = picture.width() * 0.3 / pixels_per_unit;
-    if (!(most > 0 && std::isfinite(most))) return; // coordinates at the end of doubles
+    if (!(most > 0 && std::isfinite(most))) return; // coordinates at the limits of doubles
     const double length = round_step(most * 0.4);   // at most 2.5 times that
     std::string text = number_text(length, length);
     if (*unit != '\0') text += ' ' + std::string(unit);

@@ -18,8 +18,8 @@ namespace {
 /// never above 1.
 float opacity(float ink) { return ink / std::cbrt(1 + ink * ink * ink); }
 
-/// Fits the palette to the densities of a picture: a histogram of their
-/// logarithms, of which a little at both ends may be cut off.
+/// Fits the palette to the densities of a picture: a histogram of their logarithms, which may lose
+/// a little at both ends.
 class Exposure {
 public:
     void add(float density) {
@@ -37,7 +37,7 @@ public:
             high_ += missing * 0.5f;
         }
     }
-    /// To a mean density, so that pictures side by side have the same.
+    /// Fits it to a mean density, so that adjacent pictures have the same colours.
     void fit(double mean) {
         const float middle = static_cast<float>(bin(static_cast<float>(mean))) / per_octave;
         low_ = middle - least_range / 2;
@@ -72,7 +72,7 @@ private:
 // How much of a pixel must be covered to have a density of its own.
 constexpr float least_covered = 1e-4f;
 
-/// From the colour of what covers a part of a pixel to the pixel, over the ground or nothing.
+/// From the colour of a partly covered pixel to the pixel, over the ground or over nothing.
 class Finish {
 public:
     Finish(const Color &ground, bool is_transparent)
@@ -132,7 +132,7 @@ Picture Canvas::mesh() const {
     return picture;
 }
 
-/// Of the values themselves, whatever the range of the colours is.
+/// The relief of the values themselves, whatever the range of the colours is.
 Relief Canvas::relief() {
     Arena<float> spacings(*host_);
     spacings.resize(heights_.size());
@@ -141,7 +141,7 @@ Relief Canvas::relief() {
         if (i % static_cast<std::size_t>(width_) == 0) host_->poll();
         const bool is_land = pixel->valued > least_covered;
         heights_[i] = is_land ? heights_[i] / pixel->valued : NAN;
-        // Two triangles a vertex.
+        // There are two triangles for each vertex.
         spacings[i] = is_land ? std::sqrt(2 * pixel->covered / pixel->count) : 0;
     }
     const double rise[2] = {drawing_.exaggeration * frame_.pixels_per_unit(0),

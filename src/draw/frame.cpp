@@ -10,8 +10,8 @@ namespace abacus {
 
 namespace {
 
-// What a height from the window's shape is kept between, in widths: beyond that a picture is a
-// line, or takes many times the memory that its width lets expect.
+// The limits, in widths, of a height that follows from the window's shape. Beyond them a picture is
+// a line, or takes many times the memory that its width suggests.
 constexpr double flattest = 1.0 / 8;
 constexpr std::int64_t tallest = 8;
 
@@ -58,7 +58,7 @@ std::int32_t height_of_shape(std::int32_t width, double shape) {
         std::min({std::int64_t{max_side}, max_pixels / width, width * tallest}));
     const double least = std::max(1.0, std::floor(width * flattest));
     const double height = std::floor(width * shape + 0.5);
-    // Where there is no shape it is NaN.
+    // If there is no shape, the height is NaN.
     return static_cast<std::int32_t>(height >= least ? std::min(height, most) : least);
 }
 
@@ -71,7 +71,7 @@ Extent::Extent(const abacus_drawing &drawing)
     high_ = drawing.range[1];
 }
 
-/// Whether a patch covers something of the window, or may if it is flat.
+/// Whether a patch covers a part of the window, or may do so because it is flat.
 static bool is_seen(const Patch &patch, const Box<2> &around, const Box<2> &window) {
     bool is_within = true;
     for (int axis = 0; axis < 2; ++axis) {
@@ -112,14 +112,14 @@ abacus_drawing Extent::drawing() const {
     if (result.height == 0) {
         const double shape = (result.upper[1] * 0.5 - result.lower[1] * 0.5) /
                              (result.upper[0] * 0.5 - result.lower[0] * 0.5);
-        // A window of the least double is nothing when halved, and has no shape.
+        // Half of the least double is 0, so such a window has no shape.
         result.height = height_of_shape(result.width, shape);
     }
     return result;
 }
 
 Scale::Scale(double low, double high) : origin_(low * 0.5), factor_(1 / (high * 0.5 - origin_)) {
-    // Extents below the normal range of doubles: a point, as far as a picture goes.
+    // An extent below the normal range of doubles counts as a point.
     if (!std::isfinite(factor_)) factor_ = 0;
 }
 

@@ -10,15 +10,15 @@ namespace abacus {
 
 namespace {
 
-// A letter lies on a grid: capitals are 6 high, from row 0 to the baseline, row 6; below it are two
-// rows more. Its strokes are lines through points, two digits each: column and row.
+// A letter lies on a grid. Capitals are 6 high, from row 0 to row 6, the baseline; there are two
+// more rows below it. Its strokes are lines through points, two digits each: column and row.
 struct Letter {
     std::uint32_t code;
     int width;
     const char *strokes;
 };
 
-// By their codes.
+// In the order of their codes.
 constexpr Letter letters[] = {
     {' ', 1, ""},
     {'!', 0, "0004 0506"},
@@ -126,12 +126,12 @@ const Letter &letter_of(std::uint32_t code) {
     return found != std::end(letters) && found->code == code ? *found : box;
 }
 
-/// Calls visit(letter, x) for each letter, x in rows of the grid; returns the width of all.
+/// Calls visit(letter, x) for each letter, with x in rows of the grid; returns the total width.
 template <class Visit> double each_letter(std::string_view text, Visit visit) {
     double x = 0;
     for (std::size_t i = 0; i < text.size();) {
         const auto lead = static_cast<unsigned char>(text[i++]);
-        // Of a character of several bytes the first says how many, by its leading ones.
+        // The first byte of a longer character says by its leading ones how many bytes there are.
         std::uint32_t code = lead < 0xc0 ? lead : lead < 0xe0 ? lead & 31 : lead & 15;
         while (i < text.size() && (static_cast<unsigned char>(text[i]) & 0xc0) == 0x80)
             code = code << 6 | (static_cast<unsigned char>(text[i++]) & 63);

@@ -34,7 +34,7 @@ Picture::Picture(const Host &host, std::int32_t width, std::int32_t height, bool
 
 namespace {
 
-// cairo is C: an exception waits here until cairo has returned.
+// cairo is written in C: an exception waits here until cairo has returned.
 struct Writer {
     const Host *host;
     Png *png;

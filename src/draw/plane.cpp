@@ -36,7 +36,7 @@ Plane::Plane(const abacus_section &section) {
     if (!std::isfinite(section.exaggeration) || section.exaggeration == 0)
         refuse("exaggeration must be finite and not zero");
 
-    // By a power of two, which is exact.
+    // Scaling by a power of two is exact.
     const int exponent = std::ilogb(largest) + 1;
     for (int i = 0; i < 3; ++i) {
         through_[i] = section.through[i] * scale;
@@ -72,7 +72,7 @@ Place Plane::place(const Point<3> &p) const {
 }
 
 Point<3> Plane::point(const double (&at)[2]) const {
-    // The three directions are at right angles; only the first is of length 1.
+    // The three directions are at right angles to each other; only the first has length 1.
     const double right = at[0];
     const double up = at[1] / dot(axis_[1], axis_[1]);
     const double out = dot(normal_, through_) / dot(normal_, normal_);
@@ -89,7 +89,7 @@ bool Plane::misses(const Point<3> &lower, const Point<3> &upper) const {
         highest[i] = normal_[i] < 0 ? lower[i] : upper[i];
         farthest[i] = std::max(std::fabs(lower[i]), std::fabs(upper[i]));
     }
-    // Rounding is monotonous: no point between has a height beyond theirs.
+    // Rounding is monotonic: no point between the two has a height beyond theirs.
     const double slack = tolerance(farthest);
     return height(lowest) > slack || height(highest) < -slack;
 }

@@ -4,7 +4,7 @@ namespace abacus {
 
 CoverageRow::CoverageRow(const Host &host, std::int32_t width)
     : width_(width), first_(width), last_(-1), change_(host) {
-    // An edge at the right border still changes the pixel beyond it, and the one after.
+    // An edge at the right border still changes the next two pixels.
     change_.resize(static_cast<std::size_t>(width) + 2);
     std::fill(change_.begin(), change_.end(), 0.0);
 }
@@ -12,8 +12,8 @@ CoverageRow::CoverageRow(const Host &host, std::int32_t width)
 void CoverageRow::edge(double from, double to, double drop) {
     double left = std::min(from, to);
     double right = std::max(from, to);
-    // What is left of the picture covers all of the row; what is right of it
-    // only keeps the row open up to the border.
+    // The part left of the picture covers the whole row; the part right of it only keeps the row
+    // open up to the border.
     if (right <= 0) {
         inner_edge(0, 0, drop);
         return;

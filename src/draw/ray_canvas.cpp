@@ -11,13 +11,13 @@ namespace abacus {
 
 namespace {
 
-/// The edges of a tetrahedron, and its facets by them, each turned so that they follow one another.
+/// The edges of a tetrahedron, and each facet as edges, turned so that they follow one another.
 constexpr int ends[6][2] = {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}};
 struct Facet {
     int corner[3];
     int edge[3]; // opposite the corners
-    int turn[3]; // -1: it is passed from its second end to its first
-    int out;     // 1: so turned, it is to the right as seen from outside
+    int turn[3]; // -1: the edge runs from its second end to its first
+    int out;     // 1: so turned, the facet is to their right as seen from outside
 };
 constexpr Facet facets[4] = {{{1, 2, 3}, {5, 4, 3}, {1, -1, 1}, 1},
                              {{0, 2, 3}, {5, 2, 1}, {1, -1, 1}, -1},
@@ -28,7 +28,7 @@ constexpr Facet facets[4] = {{{1, 2, 3}, {5, 4, 3}, {1, -1, 1}, 1},
 template <class Number> struct Line {
     Number x, y;   // its first end
     Number dx, dy; // from there to the second
-    int tie;       // side of the point a little to the right and below of one on the line
+    int tie;       // side of a point a little to the right of and below one on the line
 
     Line() = default;
     Line(const Sight &a, const Sight &b)
@@ -50,7 +50,7 @@ std::int32_t first_pixel(std::int64_t place) {
 }
 static_assert(Camera::steps == 1 << 8);
 
-/// Leaves what of a ray is between two depths; false if that is nothing.
+/// Keeps the part of a ray between two depths; false if nothing is left.
 template <class Depths, class Hit> bool cut_off(const Depths &depths, Hit &enters, Hit &leaves) {
     if (leaves.depth < depths.from || depths.to < enters.depth || depths.to < depths.from)
         return false;
@@ -65,7 +65,7 @@ template <class Depths, class Hit> bool cut_off(const Depths &depths, Hit &enter
     return true;
 }
 
-// Up to here places, and the products of their differences, fit words.
+// Up to here, places and the products of their differences fit into words.
 constexpr std::int64_t narrow = std::int64_t{1} << 29;
 
 } // namespace
@@ -116,10 +116,10 @@ void RayCanvas::add_clipped(const Corners &corners) {
         at[i] = camera_.sight(seen, value_between(from.value, to.value, share));
     }
     const auto &edge = cut.edge;
-    if (cut.corners == 4) { // of the first two edges, and of the last, the upper ends are one
+    if (cut.corners == 4) { // the first two edges have the same upper end, and so have the last two
         const Sight &c = *corners[edge[0].above], &d = *corners[edge[2].above];
         add_prism({c, at[0], at[1], d, at[3], at[2]});
-    } else if (edge[0].below == edge[1].below) { // from one below to the three others
+    } else if (edge[0].below == edge[1].below) { // from one corner below to the three others
         add_prism({at[0], at[2], at[1], *corners[edge[0].above], *corners[edge[2].above],
                    *corners[edge[1].above]});
     } else {
@@ -127,7 +127,7 @@ void RayCanvas::add_clipped(const Corners &corners) {
     }
 }
 
-/// Two triangles, and what is between them.
+/// A prism: two triangles and the space between them.
 void RayCanvas::add_prism(const std::array<Sight, 6> &corners) {
     const auto &[a, b, c, u, v, w] = corners;
     project({&a, &b, &c, &w});
@@ -154,10 +154,10 @@ void RayCanvas::project(const Corners &corners) {
         fill<__int128>(corners, first_x, end_x, first_y, end_y);
 }
 
-/// A facet row by row: what is on the inner side of all of its edges.
+/// The pixels of a facet row by row: those on the inner side of all of its edges.
 template <class Number> class FacetRows {
 public:
-    /// `first_x` is the pixel from which places in a row are counted.
+    /// Places in a row are counted from the pixel `first_x`.
     FacetRows(const Facet &facet, const Line<Number> (&lines)[6],
               const std::array<const Sight *, 4> &corners, std::int32_t first_x)
         : first_x_(first_x) {
@@ -175,7 +175,7 @@ public:
     }
 
     bool exists() const { return exists_; }
-    /// Whether rays leave the tetrahedron here.
+    /// Whether rays leave the tetrahedron through this facet.
     bool leaves() const { return leaves_; }
 
     /// Calls visit(x, depth, value) for the pixels of a row before `end`.
@@ -216,8 +216,8 @@ private:
     struct Edge {
         const Line<Number> *line;
         const Sight *opposite;
-        int inner;    // sign of the distance inside
-        Number least; // distance of what is inside
+        int inner;    // sign of the distance on the inner side
+        Number least; // least distance that counts as inside
         Number step;  // from one pixel to the next
     };
 
@@ -251,8 +251,8 @@ void RayCanvas::fill(const Corners &corners, std::int32_t left, std::int32_t rig
 }
 
 void RayCanvas::deposit(std::int32_t x, std::int32_t y, Hit enters, Hit leaves) {
-    // What is far smaller than a pixel may be turned inside out by the steps of its places. Its
-    // neighbours then are too long, so it counts below 0.
+    // If a tetrahedron is far smaller than a pixel, the rounding of its places may turn it inside
+    // out. Its neighbours then are too long, so it counts below 0.
     const bool is_turned = leaves.depth < enters.depth;
     if (is_turned) std::swap(enters, leaves);
     const std::size_t at = index(x, y);
@@ -275,7 +275,7 @@ void RayCanvas::deposit(std::int32_t x, std::int32_t y, Hit enters, Hit leaves) 
         pixel.value = pixel.length == 0 ? least : std::min(pixel.value, least);
         pixel.length = 1;
         break;
-    case ABACUS_RAY_MEAN: // a mean is never beyond what it is of: nothing counts below 0
+    case ABACUS_RAY_MEAN: // a mean is never beyond its values: nothing counts below 0
         pixel.length += way;
         pixel.value += way * mean;
         break;
@@ -329,7 +329,7 @@ Png RayCanvas::png(const abacus_drawing &drawing) const {
     return picture.png();
 }
 
-/// The one given, or that of what is seen.
+/// The given range, or the range of the visible values.
 std::pair<double, double> RayCanvas::range(const abacus_drawing &drawing) const {
     if (has_range(drawing)) return {drawing.range[0], drawing.range[1]};
     double low = std::numeric_limits<double>::infinity(), high = -low;

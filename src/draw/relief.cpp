@@ -22,13 +22,14 @@ constexpr int passes = 3;
 
 bool is_height(double h) { return h == h; }
 
-/// Steeper than any picture can tell; its square is still a float.
+/// Steeper than a picture can show; its square is still a float.
 float bounded_slope(double slope) {
     return static_cast<float>(std::fmin(std::fmax(slope, -1e12), 1e12));
 }
 
-/// Share that a pixel takes over from its neighbour, by the spacing of the vertices: from a table,
-/// since each pixel asks sixteen times. Between entries it is off by less than a picture can tell.
+/// The share that a pixel takes over from its neighbour, depending on the spacing of the vertices.
+/// It comes from a table, since each pixel asks sixteen times. Between entries the error is too
+/// small to be seen in a picture.
 class Feedback {
 public:
     explicit Feedback(double part) {

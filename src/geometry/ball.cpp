@@ -1,6 +1,6 @@
-// What is not decided by corners is by facets: the point of a facet nearest to the centre is a
-// corner, lies within an edge, or, in space, within the facet itself. Which of these it is, and how
-// far away it is, is computed in rational numbers, without any division.
+// If the corners do not decide, the facets do. The point of a facet nearest to the centre is a
+// corner, lies within an edge, or, in space, within the facet itself. Which case it is, and the
+// distance, are computed in rational numbers without any division.
 #include "geometry/ball.hpp"
 
 #include <CGAL/Exact_rational.h>

@@ -25,8 +25,8 @@ template <> void CellShape<2>::fill(const Box<2> &window) {
 
 template <> void CellShape<3>::fill(const Box<3> &window) {
     window_ = window;
-    // Around the upper side of an axis: the ends of the next axis and of the one after it, and the
-    // side beyond the edge to the next corner. The lower side goes the other way.
+    // Around the upper side of an axis: for each corner, the ends of the next two axes. `beyond`
+    // has the side across the edge to the next corner. The lower side goes the other way.
     constexpr int ends[4][2] = {{0, 0}, {1, 0}, {1, 1}, {0, 1}};
     for (int side = 0; side < 6; ++side) {
         const int axis = side / 2, b = (axis + 1) % 3, c = (axis + 2) % 3;
@@ -79,7 +79,7 @@ Point<D> CellShape<D>::crossing(int face, int edge, int cut, const Corner &insid
 template <int D> void CellShape<D>::cut_face(const Face &face, int neighbour) {
     const Point<D> &beyond = neighbours_[static_cast<std::size_t>(neighbour)];
     const std::size_t size = face.end - face.begin, first_entry = entries_.size();
-    int left = no_label; // the edge by which the face has been left, until it is entered again
+    int left = no_label; // the edge where the walk left the half-space, until it enters it again
     int left_first = no_label;
     add_cut_face(face.label);
     for (std::size_t i = 0; i < size; ++i) {
@@ -99,7 +99,7 @@ template <int D> void CellShape<D>::cut_face(const Face &face, int neighbour) {
             left = no_label;
         }
     }
-    // Left after it was entered: the ring begins outside.
+    // The walk entered before it first left: the ring begins outside.
     if (left_first != no_label) entries_[static_cast<std::size_t>(left_first)].left = left;
     if (cut_faces_.back().begin == cut_faces_.back().end) cut_faces_.pop_back();
     if (D == 2) entries_.resize(first_entry);
@@ -145,7 +145,7 @@ template <int D> void CellShape<D>::tidy() {
     cut_faces_.clear();
     for (const Face &face : faces_) {
         const std::size_t size = face.end - face.begin;
-        std::size_t first = 0; // of those left
+        std::size_t first = 0; // of the remaining corners
         add_cut_face(face.label);
         for (std::size_t i = 0; i < size; ++i) {
             const Corner &corner = corners_[face.begin + i];
@@ -165,7 +165,7 @@ template <int D> void CellShape<D>::tidy() {
         std::rotate(ring, ring + first, cut_corners_.data() + left.end);
     }
     take_cut();
-    // What has no face left but one, or two, encloses nothing.
+    // One or two remaining faces enclose nothing.
     if (D == 3 && faces_.size() < 4) faces_.clear();
 }
 
@@ -182,7 +182,7 @@ Point<3> cross(const Point<3> &a, const Point<3> &b) {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-/// Twice the area of a ring as a vector across it; in the plane a number.
+/// Twice the area of a ring: a number in the plane, a vector normal to it in space.
 template <int D, class Corners>
 auto turned(const Corners &corners, std::size_t begin, std::size_t end) {
     decltype(cross(Point<D>{}, Point<D>{})) sum{};

@@ -8,7 +8,7 @@ namespace abacus {
 
 namespace {
 
-/// Of the centre as seen from the first corner.
+/// The equations of the centre relative to the first corner.
 template <class T, int D> LinearSystem<T, D> centre_of(const Corners<D> &corners) {
     LinearSystem<T, D> system;
     for (int i = 0; i < D; ++i) {

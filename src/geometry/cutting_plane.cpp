@@ -12,7 +12,7 @@ namespace {
 
 using Rational = CGAL::Exact_rational;
 
-/// 2 to a power that need not be one of a double.
+/// 2 to a power that may be outside the range of doubles.
 Rational power_of_two(int exponent) {
     const int half = exponent / 2;
     return Rational(std::ldexp(1.0, half)) * Rational(std::ldexp(1.0, exponent - half));

@@ -4,7 +4,7 @@
 
 namespace abacus {
 
-/// In doubles as seen from the first point, in rational numbers in the mesh's coordinates.
+/// In doubles relative to the first point, in rational numbers in the mesh's coordinates.
 template <int D> template <class T> auto Equidistant<D>::system(bool is_seen_from_first) const {
     LinearSystem<T, D> system;
     const Point<D> &first = *points_[0];

@@ -25,7 +25,7 @@ double ExactSum::value() const {
     }
     std::size_t first = size - 1;
     while (first > 0 && sum.digits_[first] == 0) --first;
-    // Three digits have more bits than a double, and one to spare that stands for all others.
+    // Three digits have more bits than a double, and a spare one that stands for all lower digits.
     const std::size_t last = std::max<std::size_t>(first, 2) - 2;
     Wide leading = 0;
     for (std::size_t i = first + 1; i-- > last;)

@@ -10,7 +10,7 @@ namespace {
 /// Weights have at least ten digits; else they are computed in rational numbers.
 constexpr double most_error = 1e-10;
 
-/// The values of line_side() of a few points: of each one in the plane, of each two in space.
+/// The values of line_side() for a few points: for each point in the plane, for each pair in space.
 template <int D, int N> class Sides {
 public:
     Sides(const Line<D> &line, const std::array<const Point<D> *, N> &points) {
@@ -60,7 +60,7 @@ void set_weights(FacetPlace<D> &place, const Line<D> &line,
             place.weight[i] = exact::nearest_double(exact::Rational(exact[i] / whole));
         place.error = 1e-15;
     }
-    // Neither is a corner with a weight left out, nor one without a weight given one.
+    // A corner that has a weight keeps one, and a corner without weight gets none.
     for (int i = 0; i < D; ++i)
         place.weight[i] = estimates[i].value == 0
                               ? 0

@@ -18,8 +18,8 @@ using Wide = __int128;
 
 template <class T> int sign(T value) { return (value > 0) - (value < 0); }
 
-/// The points' differences from `origin` in a common unit, if they are exact integers of
-/// at most `bits` bits in one.
+/// The points' differences from `origin` as integers in a common unit, if they are exact and have
+/// at most `bits` bits.
 template <int D, std::size_t N>
 std::optional<std::array<std::array<std::int64_t, D>, N>>
 differences(const std::array<const Point<D> *, N> &points, const Point<D> &origin, int bits) {
@@ -28,7 +28,7 @@ differences(const std::array<const Point<D> *, N> &points, const Point<D> &origi
     for (std::size_t n = 0; n < N; ++n)
         for (int axis = 0; axis < D; ++axis) {
             const double a = (*points[n])[axis], b = origin[axis], d = a - b;
-            const double rest = a - d; // what subtracting rounded off (Knuth's TwoSum)
+            const double rest = a - d; // what the subtraction rounded off (Knuth's TwoSum)
             rounded += std::fabs((a - (d + rest)) + (rest - b));
             largest = std::max(largest, std::fabs(d));
             difference[n][axis] = d;
@@ -47,7 +47,7 @@ differences(const std::array<const Point<D> *, N> &points, const Point<D> &origi
     return result;
 }
 
-/// Sign of the determinant of in_sphere(), positive inside, if integers hold it.
+/// Sign of the determinant of in_sphere(), positive inside, if integers are large enough for it.
 std::optional<int> integer_in_sphere(const Corners<2> &corners, const Point<2> &p) {
     const auto d = differences<2, 3>(corners, p, 30);
     if (!d) return std::nullopt;
@@ -72,11 +72,11 @@ std::optional<int> integer_in_sphere(const Corners<3> &corners, const Point<3> &
     return -sign((lift(d) * abc - lift(c) * dab) + (lift(b) * cda - lift(a) * bcd));
 }
 
-/// Position of p to the sphere through the first N corners, on which it lies. The lifted
-/// points move up by infinitesimals, the lexicographically largest by the largest; the
-/// sign is that of the first coefficient, in this order, that is not zero: for p itself
-/// that of the positive simplex, negated; for a corner that of the simplex with p in its
-/// place, which `orientation` gives.
+/// Position of p relative to the sphere through the first N corners, on which it lies.
+/// Infinitesimals lift the points, the lexicographically largest point by the largest. The sign is
+/// that of the first coefficient in this order that is not zero. For p itself this is the sign of
+/// the positive simplex, negated; for a corner it is the sign of the simplex with p in its place,
+/// which `orientation` returns.
 template <int D, int N, class Orientation>
 int perturbed_sign(const Corners<D> &corners, const Point<D> &p, Orientation orientation) {
     const auto point = [&](int i) -> const Point<D> & { return i < N ? *corners[i] : p; };

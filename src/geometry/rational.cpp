@@ -9,18 +9,18 @@ namespace abacus::exact {
 
 namespace {
 
-// Doubles that are not negative are in the order of their bits.
+// Non-negative doubles have the same order as their bits.
 double of_bits(std::uint64_t bits) { return std::bit_cast<double>(bits); }
 
-/// Of a number that is not negative.
+/// The double nearest to a number that is not negative.
 double nearest_to_positive(const Rational &x) {
     constexpr double greatest = std::numeric_limits<double>::max();
     if (x >= Rational(greatest)) {
-        // From half a step beyond it on.
+        // From half a step beyond the greatest double on, the result is infinite.
         const Rational end = Rational(greatest) + Rational(std::ldexp(1.0, 970));
         return x < end ? greatest : std::numeric_limits<double>::infinity();
     }
-    // x is at or above `below`, and below `above`. The conversion is right up to a step, if so.
+    // below <= x < above. The conversion is usually right up to one step.
     std::uint64_t below = 0, above = std::bit_cast<std::uint64_t>(greatest);
     const double guess = std::fabs(CGAL::to_double(x));
     if (guess > 0 && guess < greatest) {

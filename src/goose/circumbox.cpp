@@ -25,8 +25,8 @@ template <int D> Interval squared(const Vector<D> &v) {
     return sum;
 }
 
-/// From the corner a simplex's edges start at to the centre of its circumsphere:
-/// formulas 2.1 and 2.2 of the dissertation, and the same in space.
+/// From the corner where a simplex's edges start to the centre of its circumsphere: formulas 2.1
+/// and 2.2 of the dissertation, and the same in space.
 Vector<2> to_centre(const std::array<Vector<2>, 2> &edges) {
     const auto &[b, c] = edges;
     const Interval bb = squared<2>(b), cc = squared<2>(c);
@@ -70,8 +70,8 @@ template <int D> Bounds<D> around_sphere(const double (*corner)[ABACUS_MAX_DIMEN
     return bounds;
 }
 
-/// Of the half-space n (p - a) >= 0 within a domain: an axis is bounded by what the others
-/// can contribute at most.
+/// The box of the half-space n (p - a) >= 0 within a domain: each axis is bounded by the most that
+/// the others can contribute.
 template <int D>
 Bounds<D> around_half_space(const double (*corner)[ABACUS_MAX_DIMENSION], Bounds<D> bounds) {
     const Vector<D> n = normal(edges_of<D, D - 1>(corner));
@@ -90,7 +90,7 @@ Bounds<D> around_half_space(const double (*corner)[ABACUS_MAX_DIMENSION], Bounds
     return bounds;
 }
 
-/// Coordinates nearer to 0 are moved there or to this, so that no area underflows.
+/// Coordinates nearer to 0 move to 0 or to this value, so that no area underflows.
 constexpr double least_coordinate = 0x1p-100;
 
 double lower_end(double x, double unit) {
@@ -121,7 +121,8 @@ template <int D> void Circumboxes<D>::enclose(abacus_boxed_simplex &row) const {
         bounds = row.simplex.ghost ? around_half_space<D>(row.simplex.corner, {lower_, upper_})
                                    : around_sphere<D>(row.simplex.corner);
     }
-    // The comparisons are such that a NaN, which an infinite interval may lead to, is no bound.
+    // These comparisons are false for a NaN, which an infinite interval may lead to: then it is no
+    // bound.
     for (int k = 0; k < D; ++k) {
         const double lower = bounds.lower[k] > lower_[k] ? bounds.lower[k] : lower_[k];
         const double upper = bounds.upper[k] < upper_[k] ? bounds.upper[k] : upper_[k];

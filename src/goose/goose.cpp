@@ -52,7 +52,7 @@ template <int D> void Goose<D>::hold(const std::uint64_t *record) {
     if (first_.is_complete()) start();
 }
 
-/// The first simplex with its ghosts, then the other points that were held.
+/// Inserts the first simplex with its ghosts, then the other points that were held.
 template <int D> void Goose<D>::start() {
     Row simplex{first_vertices_, false};
     Corners<D> points;
@@ -127,8 +127,9 @@ template <int D> void Goose<D>::remove_cavity() {
 }
 
 template <int D> void Goose<D>::fill_cavity(const Vertex &v) {
-    // On each facet of the rim stands the row inside with v for the corner opposite it: v lies
-    // on the same side, so the orientation stays, and infinity stays last.
+    // The new row on each facet of the rim is the row inside, with v in place of the corner
+    // opposite the facet. v lies on the same side, so the orientation stays, and infinity stays
+    // last.
     filling_.clear();
     for (const auto &rim : rim_.find({cavity_.data(), cavity_.size()})) {
         const abacus_simplex &inside = *cavity_[rim.row];

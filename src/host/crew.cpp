@@ -13,7 +13,7 @@ namespace {
 /// How long the session's thread waits at a desk while another one has threads, too.
 constexpr std::chrono::microseconds soon{100};
 
-/// Threads that are started inherit the mask.
+/// Blocks all signals: new threads inherit the mask.
 class SignalsBlocked {
 public:
     SignalsBlocked() noexcept {
@@ -35,7 +35,7 @@ Crew *Crew::first_ = nullptr;
 
 Crew::Crew(const Host &host)
     : host_(host), host_memory_(host), couriers_(&host_memory_), threads_(&host_memory_) {
-    // What the threads may hold is theirs to decide, as it is the session's: caches have budgets.
+    // Threads, like the session, decide themselves how much memory they use: caches have budgets.
     const std::size_t any = std::numeric_limits<std::size_t>::max() / 2;
     memory_.reserve(host.most_thread_bytes() != 0 ? host.most_thread_bytes() : any);
 }
@@ -125,7 +125,7 @@ void Crew::start(unsigned threads) {
     for (; threads > 0; --threads, ++courier) {
         try {
             threads_.emplace_back([this, courier] { thread(*courier); });
-        } catch (const std::system_error &) { // those that run do all
+        } catch (const std::system_error &) { // the running threads do all the work
             for (; threads > 0; --threads) desk_.leave();
             return;
         }

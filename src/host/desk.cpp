@@ -56,7 +56,7 @@ bool Desk::serve(const Host &host, std::chrono::microseconds wait) {
         if (open_requests_ == 0 && at_work_ == 0) return false;
     }
     host.poll();
-    // In turns, so that none waits for all that another has asked.
+    // In turns, so that no thread waits for all requests of another one.
     for (bool is_idle = false; !is_idle;) {
         is_idle = true;
         for (Courier *courier = first_; courier != nullptr; courier = courier->next_)
@@ -119,7 +119,7 @@ bool Desk::serve(const Host &host, Courier &courier) {
 
 // ---- The thread's side ------------------------------------------------------------------
 
-/// What the thread's table of host functions leads to.
+/// The functions in the thread's table of host functions.
 struct Courier::Functions {
     static Courier &self(void *context) { return *static_cast<Courier *>(context); }
 
@@ -135,7 +135,7 @@ struct Courier::Functions {
     static abacus_host_status find(void *context, abacus_page_kind kind, abacus_key key,
                                    abacus_page *page) {
         page->key = key;
-        page->location = 0; // whatever was there is no ticket
+        page->location = 0; // a location that is not a ticket
         return self(context).look(self(context).begin(Wish::find, kind, *page), *page);
     }
     static abacus_host_status fetch(void *context, abacus_page_kind kind, abacus_page *page) {
@@ -182,7 +182,7 @@ Courier::Courier(Desk &desk, const Memory &memory)
     table_.put = Functions::put;
     table_.erase = Functions::erase;
     host_ = Host(table_);
-    requests_.reserve(most_requests); // else an arena asks for more at once
+    requests_.reserve(most_requests); // otherwise an arena would allocate more at once
     requests_.resize(most_requests);
     desk.first_ = this;
 }

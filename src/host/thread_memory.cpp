@@ -4,7 +4,7 @@
 
 namespace abacus {
 
-/// Stands before each block that is handed out, and keeps malloc()'s alignment.
+/// The head of each allocated block, which keeps malloc()'s alignment.
 struct alignas(std::max_align_t) ThreadMemory::Block {
     Block *previous;
     Block *next;

@@ -1,13 +1,12 @@
 // Parts of keys: computed only where a block lies inside one code.
 //
-// No fixed number of bits below the code would do for every cluster, since doubles
-// resolve places over a thousand octaves. But simplices that share a page should be near
-// one another, measured by their own size. The greatest vertex does not count in this,
-// since very many simplices may have only that in common: a hub. So a part is the place
-// of the simplex's least vertex on a grid. The grid has the size of the facet opposite
-// the greatest vertex, in steps of 512. First comes the coarse place, hashed, whose
-// stretch of the curve holds many pages' worth of simplices, then the place inside it. A
-// hash of the vertices tells apart what is left.
+// No fixed number of bits below the code would do for every cluster, since doubles resolve places
+// over a thousand octaves. But simplices that share a page should be near one another, measured by
+// their own size. The greatest vertex does not count in this, since very many simplices may have
+// only that one in common: a hub. So a part is the place of the simplex's least vertex on a grid.
+// The grid has the size of the facet opposite the greatest vertex, in steps of 512. First comes the
+// coarse place, hashed; a coarse cell's stretch of the curve holds many pages' worth of simplices.
+// Then comes the place inside it. A hash of the vertices distinguishes the remaining simplices.
 #include "keys/locational_code.hpp"
 
 namespace abacus {
@@ -16,9 +15,9 @@ namespace {
 
 /// Bits of a part.
 constexpr int coarse_bits = 16;
-template <int D> constexpr int place_bits = D == 2 ? 16 : 12; // an axis
-/// Cells of the grid along the size of a simplex, as a power of two. So neighbours that
-/// differ by much less than their size, as around an edge, still come in order.
+template <int D> constexpr int place_bits = D == 2 ? 16 : 12; // per axis
+/// Cells of the grid along the size of a simplex, as a power of two. So neighbours that differ by
+/// much less than their size, as around an edge, still come in order.
 template <int D> constexpr int fine_bits = D == 2 ? 3 : 0;
 template <int D> constexpr int hash_bits = 63 - coarse_bits - D *place_bits<D>;
 
@@ -40,12 +39,12 @@ private:
 int exponent(double x) {
     return std::max(1, static_cast<int>(std::bit_cast<std::uint64_t>(x) >> 52 & 0x7ff)) - 1023;
 }
-/// 2^e, as near to it as normal numbers go.
+/// 2^e, or the normal number nearest to it.
 double power(int e) {
     return std::bit_cast<double>(std::uint64_t(std::clamp(e + 1023, 1, 2046)) << 52);
 }
 double floor_of(double x) {
-    if (!(std::fabs(x) < 0x1p62)) return x; // an integer, or none
+    if (!(std::fabs(x) < 0x1p62)) return x; // an integer, infinite or NaN
     const auto whole = static_cast<double>(static_cast<std::int64_t>(x));
     return whole > x ? whole - 1 : whole;
 }
@@ -75,9 +74,9 @@ std::uint64_t Domain<D>::part(const std::array<const Point<D> *, D + 1> &corners
 
     // The greatest vertex does not count, except where a ghost's edge has no other.
     const auto counts = [&](int i) { return i != greatest || n == 2; };
-    // A quarter of the coordinates, so that no difference overflows; or, where they are so small
-    // that steps might be no normal numbers, whose inverses overflow, a whole number of nine
-    // octaves more.
+    // Coordinates are divided by 4, so that no difference overflows. If they are so small that
+    // steps might not be normal numbers, whose inverses would overflow, they are multiplied by 2^72
+    // as well: a multiple of nine octaves.
     double extent = 0;
     for (int i = 0; i < n; ++i)
         for (int axis = 0; axis < D; ++axis)

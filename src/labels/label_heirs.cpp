@@ -7,7 +7,7 @@ namespace {
 template <int D> constexpr std::size_t place_words = D *(D + 1);
 constexpr std::size_t least_room = 64;
 
-/// In positive orientation.
+/// The corners in positive orientation.
 template <int D> Corners<D> corners_of(const Owner<D, D + 1> &simplex) {
     Corners<D> corners;
     for (int i = 0; i <= D; ++i) corners[i] = &simplex[i];
@@ -75,7 +75,7 @@ template <int D> bool LabelHeirs<D>::read_lost() {
 
 template <int D> void LabelHeirs<D>::look_at(const Simplex &simplex, std::uint64_t code) {
     const Point<D> centroid = centroid_of<D>(simplex);
-    bool is_inside = false, is_known = false; // whether it is in its own simplex
+    bool is_inside = false, is_known = false; // whether the centroid is in its own simplex
     tree_.visit(Box<D>(centroid, centroid), [&](std::size_t i) {
         if (!is_known) is_inside = in_simplex<D>(corners_of<D>(simplex), centroid) > 0;
         is_known = true;
@@ -86,7 +86,8 @@ template <int D> void LabelHeirs<D>::look_at(const Simplex &simplex, std::uint64
     });
 }
 
-/// A simplex that has labels already is not new, or got them from one with a lesser key.
+/// A simplex that already has labels is not new, or got them from a removed simplex with a lesser
+/// key.
 template <int D> std::uint64_t LabelHeirs<D>::give(AttributePages<D, D + 1> &pages) {
     std::uint64_t count = 0;
     sort_along_keys<D>(heirs_);

@@ -4,7 +4,7 @@ namespace abacus {
 
 namespace {
 
-/// The least key of a code among the rows of a group; for the end of the curve the key behind them.
+/// The least key of a code among the rows of a group; at the end of the curve, the key after them.
 constexpr Key row_begin(unsigned group, std::uint64_t code) {
     return code < key_word_end ? in_group(code_begin(code), group) : group_begin(group + 1);
 }
@@ -20,8 +20,8 @@ LabelSweep<D>::LabelSweep(const Host &host, const abacus_facts &facts, const Dom
     values_.resize(columns);
 }
 
-// Rows written meanwhile may lie in other pages than before. So the sweep goes on from key to key:
-// rows with lesser keys are done.
+// Rows written meanwhile may be in other pages than before. So the sweep goes from key to key: it
+// is done with all rows that have lesser keys.
 template <int D>
 std::uint64_t LabelSweep<D>::sweep(const StoredPages::Stretch &stretch, const Report &gone,
                                    const Report &kept) {

@@ -36,7 +36,7 @@ Owner<D, D + 1> Labelling<D>::owner(NamedSimplices<D> &mesh, const std::uint64_t
     return owner_of<D, D + 1>(points);
 }
 
-/// A row of NULLs only is removed.
+/// Sets the labels of a row; removes the row if all its labels are NULL.
 template <int D>
 void Labelling<D>::set_row(AttributePages<D, D + 1> &pages, const Owner<D, D + 1> &simplex,
                            std::uint64_t code, std::uint64_t &labelled) {

@@ -66,7 +66,7 @@ template <int D> void MarkerSweep<D>::look_at(const Simplex &simplex, std::uint6
         for (; at != marked_.end() && at->key == key; ++at) {
             if (at->facet != facet) continue;
             found_.push_back({simplex, code, static_cast<std::uint32_t>(i), at->marker});
-            break; // its other side has the same
+            break; // the facet's entry for the other side has the same marker
         }
     }
 }

@@ -43,8 +43,8 @@ template <int D> bool ElementWriter<D>::is_crowded(std::uint64_t code) const {
     return std::binary_search(crowded_.begin(), crowded_.end(), code);
 }
 
-/// How many of the waiting elements, at most `most` and not all, make a page: up to a change
-/// of code in the upper half, else of the key.
+/// Returns how many of the waiting elements make a page: at most `most`, and not all of them. The
+/// cut is at a change of code in the upper half, or else at a change of key.
 template <int D> std::size_t ElementWriter<D>::cut(std::size_t most) const {
     for (std::size_t n = most; n > most / 2; --n)
         if (key(n - 1).code != key(n).code) return n;

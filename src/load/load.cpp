@@ -64,9 +64,9 @@ template <int D> void Load<D>::add_simplices(const Word *simplices, std::size_t 
     pacer_.reached(vertices_->size() + simplex_count_);
 }
 
-/// Writes the attributes, if they are apart, and lists the vertices beside a mesh that is not
-/// Delaunay. The simplices around a vertex need not be connected there, so a reader of pages could
-/// not tell which vertices it has seen. Returns what that adds to the counters.
+/// Writes the attributes, if they are apart, and lists the vertices of a mesh that is not Delaunay.
+/// The simplices around a vertex need not be connected there, so a reader of pages could not say
+/// which vertices it has already seen. Returns what to add to the counters.
 template <int D> abacus_counters Load<D>::write_vertices(bool is_listed) {
     const bool are_apart = static_cast<unsigned>(in_pages_) != attributes_;
     VertexPageWriter list(host_, D, static_cast<unsigned>(in_pages_), 0);
@@ -125,7 +125,7 @@ template <int D> void Load<D>::write(abacus_header &header) {
     ElementWriter<D> pages(host_, layout_, *domain_, in_pages_, is_delaunay, split_count_ > 0);
     pages.write(*elements_, pacer_);
     end(elements_);
-    header.counters = pages.counters(); // nothing has been done with it before
+    header.counters = pages.counters(); // nothing was done with it before
     header.counters += write_vertices(!is_delaunay);
     if (labelled_) write_labels(header);
     if (marker_rows_) write_markers(header);

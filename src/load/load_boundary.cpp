@@ -44,7 +44,7 @@ template <int D> void Load<D>::check_hull() {
         }
         for (const Point<D> *extreme : {&least_, &greatest_}) {
             corners[D] = extreme;
-            if (orientation<D>(corners) > 0) is_convex_ = false; // another piece's
+            if (orientation<D>(corners) > 0) is_convex_ = false; // the vertex of another piece
         }
     }
 }

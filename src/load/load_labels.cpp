@@ -1,8 +1,8 @@
 // Labels of simplices: they come with the corners, and are stored by the places of these.
 //
-// Simplices are put together in the order in which they came, so their labels are read along. Those
-// that have any then go by the keys under which labels are found, so that each page is written
-// once.
+// The simplices are assembled in the order in which they came, so their labels are read in step.
+// Simplices with labels are then sorted by the keys under which labels are found, so that each page
+// is written once.
 #include "attributes/attribute_pages.hpp"
 #include "blocks/counters.hpp"
 #include "load/load.hpp"
@@ -18,7 +18,7 @@ template <int D> void Load<D>::begin_labels() {
     label_rows_.rewind();
 }
 
-/// Those of the next simplex.
+/// Places the labels of the next simplex.
 template <int D> void Load<D>::place_labels(const Corners<D> &corners) {
     const Word *labels = label_rows_.next();
     const auto is_missing = [](Word label) { return std::isnan(std::bit_cast<double>(label)); };

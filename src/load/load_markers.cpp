@@ -1,5 +1,5 @@
-// Markers of facets: they come with the ids of the facet, go to the simplices beside it where these
-// are found to be neighbours, and are stored by the places of the corners of these.
+// Markers of facets: they come with the ids of the facet, and go to the simplices beside it when
+// these are found to be neighbours. They are stored by the places of the simplices' corners.
 #include "attributes/attribute_pages.hpp"
 #include "blocks/counters.hpp"
 #include "load/load.hpp"
@@ -39,7 +39,7 @@ template <int D> void Load<D>::begin_markers() {
     mark_ = marks_->next();
 }
 
-/// Those that come before a facet are of none.
+/// Rejects marks that come before a facet: they belong to no facet.
 template <int D> void Load<D>::refuse_marks_before(const std::array<Word, D> *ids) {
     for (; mark_ != nullptr && (ids == nullptr || std::lexicographical_compare(
                                                       mark_, mark_ + D, ids->begin(), ids->end()));
@@ -51,7 +51,7 @@ template <int D> void Load<D>::refuse_marks_before(const std::array<Word, D> *id
     }
 }
 
-/// The places of a facet's sides.
+/// Gives the marker of a facet to its sides.
 template <int D>
 void Load<D>::mark_sides(const std::array<Word, D> &ids, std::span<const Word> sides) {
     refuse_marks_before(&ids);
@@ -78,7 +78,7 @@ template <int D> void Load<D>::end_marks() {
     marker_rows_.emplace(host_, key_words + D * (D + 1) + D + 1, key_words, share_ / pieces);
 }
 
-/// Those of the next simplex.
+/// Places the markers of the next simplex.
 template <int D> void Load<D>::place_markers(Word simplex, const Word *record) {
     if (mark_ == nullptr || mark_[0] >> 2 != simplex) return;
     std::array<Point<D>, D + 1> points;

@@ -77,7 +77,7 @@ template <int D> void Load<D>::link() {
         for (int i = 1; i < seen; ++i)
             for (int k = 0; k < i; ++k) {
                 if (flanks[i].opposite != flanks[k].opposite) continue;
-                if (flanks[i].opposite < flanks[i].ids[0]) // at one of its facets
+                if (flanks[i].opposite < flanks[i].ids[0]) // reported at one of its facets only
                     faults_.add("simplex " + name(i) + " is given twice", {},
                                 "Give each simplex only once, for instance with SELECT DISTINCT.");
                 return;
@@ -115,7 +115,7 @@ template <int D> void Load<D>::find_boundary() {
             Key beyond;
             if (const auto *link = links.of(simplex, i)) {
                 beyond = link->key;
-                // Each facet from one of its sides.
+                // Test each facet from one of its sides only.
                 if (is_empty_ && layout_.simplex_vertex(record, i)[0] < link->opposite &&
                     in_sphere(corners, link->point) > 0) {
                     is_own_ = false;
@@ -137,7 +137,7 @@ template <int D> void Load<D>::find_boundary() {
     boundary_->finish();
 }
 
-/// The ghost beyond a facet, which looks at it from outside.
+/// Adds the ghost beyond a facet, which sees the facet from outside.
 template <int D> void Load<D>::add_ghost(const Word *simplex, int facet, Key &key) {
     std::array<const Word *, D + 1> vertices{};
     for (int i = 0, n = 0; i <= D; ++i)

@@ -1,8 +1,8 @@
-// The two sides of a fault: facets of the boundary at one place, of vertices that share theirs.
+// The two sides of a fault: facets of the boundary at one place, whose vertices share their places.
 //
-// They are found by sorting the boundary by the places of its facets. Of two that are at one place
-// the simplices lie on different sides. As if they were matched, the number of simplices that cover
-// a place is the same on both sides. So overlap.hpp need not know of them.
+// Sorting the boundary by the places of its facets finds them. If two facets are at one place,
+// their simplices lie on different sides. As if they were matched, the number of simplices that
+// cover a place is the same on both sides. So overlap.hpp does not need to know about them.
 #include "blocks/bit_column.hpp"
 #include "geometry/point.hpp"
 #include "load/load.hpp"
@@ -13,8 +13,8 @@ namespace abacus {
 
 namespace {
 
-// A side of a facet: the places of its corners, whether their order is an odd permutation of its
-// own, and its record of the boundary.
+// A side of a facet: the places of its corners in order, whether their own order is an odd
+// permutation of it, and its record of the boundary.
 template <int D> constexpr std::size_t place_words = D *D;
 template <int D> constexpr std::size_t head_words = place_words<D> + 1;
 
@@ -44,7 +44,7 @@ template <int D> void Load<D>::leave_out_split_facets() {
     begin(outer_, layout_.boundary, 2);
     Arena<Word> of_first(host_);
     Word *const first = of_first.extend(head_words<D> + layout_.boundary);
-    std::uint64_t n = 0; // at the place of the first
+    std::uint64_t n = 0; // facets at the place of the first
     const auto facet_of = [&](const Word *side) {
         std::array<Word, D> ids;
         for (int i = 0; i < D; ++i) ids[i] = layout_.boundary_vertex(side + head_words<D>, i)[0];

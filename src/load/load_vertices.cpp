@@ -22,7 +22,7 @@ template <int D> void Load<D>::find_corners() {
         previous = vertex[0];
         for (; corner != nullptr && corner[0] < vertex[0]; corner = corners_->next())
             add_unknown(corner);
-        if (corner == nullptr || corner[0] != vertex[0]) continue; // in no simplex
+        if (corner == nullptr || corner[0] != vertex[0]) continue; // belongs to no simplex
         use_vertex(vertex);
         for (; corner != nullptr && corner[0] == vertex[0]; corner = corners_->next()) {
             Word *placed = placed_->add();
@@ -56,7 +56,7 @@ template <int D> void Load<D>::add_unknown(const Word *corner) {
         faults_.add_unnamed(1);
 }
 
-/// Looks for the other corners of the simplices, to name these.
+/// Names the simplices that have unknown vertices: looks for their other corners.
 template <int D> void Load<D>::name_unknown() {
     if (unknown_.empty()) return;
     const auto before = [](const Unknown &a, const Unknown &b) { return a.simplex < b.simplex; };
@@ -74,8 +74,8 @@ template <int D> void Load<D>::name_unknown() {
     unknown_.reset();
 }
 
-/// A given domain that does not fit the vertices gives way to another one at once: a mesh that is
-/// not Delaunay is never keyed anew.
+/// If a given domain does not fit the vertices, another one replaces it at once, since a mesh that
+/// is not Delaunay never gets new keys.
 template <int D> void Load<D>::choose_domain() {
     Box<D> all = spread_.box();
     if (domain_) all.extend(Box<D>(domain_->lower(), domain_->upper()));
@@ -87,9 +87,9 @@ template <int D> void Load<D>::choose_domain() {
     if (!keeps_domain_) domain_ = domain_around<D>(box_.lower, box_.upper);
 }
 
-/// Two vertices at one place are refused, or they are split nodes and go by their ids.
+/// Rejects two vertices at one place; split nodes are ordered by their ids instead.
 template <int D> void Load<D>::order_vertices() {
-    // Code, coordinates, id with its sign turned, then the rest of the record.
+    // Code, coordinates, id with its sign flipped, then the rest of the record.
     constexpr Word sign = Word{1} << 63;
     RecordSort places(host_, 1 + vertex_words_, 2 + D, share_);
     used_.rewind();
@@ -103,7 +103,7 @@ template <int D> void Load<D>::order_vertices() {
     used_.close();
     places.finish();
     Word previous = 0;
-    bool is_split = false; // whether the one before is known to share its place
+    bool is_split = false; // whether the previous vertex is known to share its place
     std::optional<Point<D>> previous_point;
     while (const Word *place = places.next()) {
         const Point<D> &p = point_in<D>(place);

@@ -16,15 +16,16 @@ void add_overlap(Faults &faults, const std::string &a, const std::string &b) {
 }
 void add_contact(Faults &faults, const std::string &a, const std::string &b,
                  const std::string &detail) {
-    if (faults.has(overlap_of(a, b))) return; // which says more
+    if (faults.has(overlap_of(a, b))) return; // that says more
     faults.add(names_of(a, b) + " meet in more than a common face", detail, common_faces);
 }
 
 constexpr std::size_t least_room = 64; // facets
-/// Of the memory: what is put aside while a boundary is held in parts, and what threads look at.
+/// Shares of the memory: for records put aside while a boundary is held in parts, and for the batch
+/// that threads check.
 constexpr std::size_t aside_share = 4, batch_share = 8;
 constexpr std::size_t least_parts = 2, most_parts = 64; // at once
-/// Facets of a boundary that are worth the threads.
+/// From this number of facets on, a boundary is worth the threads.
 constexpr std::uint64_t worth_sharing = 1 << 15;
 constexpr std::size_t least_batch = 64; // records
 
@@ -118,7 +119,7 @@ std::uint64_t Overlap<D>::check_parts(std::uint64_t first, RecordSort &boundary,
     return first_;
 }
 
-/// Puts what is near the parts aside for them: simplices, and the facets that do not come before.
+/// Puts aside what is near each part: simplices, and the facets that do not come before the part.
 template <int D>
 void Overlap<D>::put_aside(BoundaryParts<D> &parts, std::uint64_t first, RecordSort &boundary,
                            RecordSpool &simplices) const {
@@ -139,7 +140,7 @@ void Overlap<D>::put_aside(BoundaryParts<D> &parts, std::uint64_t first, RecordS
     for (std::uint64_t number = 0; const Word *record = boundary.next(); ++number) {
         if (number < first) continue;
         parts.each_near(read(record).box(), [&](std::size_t part) {
-            if (part > parts.part_of(number - first)) return; // all of it comes later
+            if (part > parts.part_of(number - first)) return; // all facets of this part come later
             Word *numbered = parts.others(part).add();
             *numbered++ = number;
             std::copy_n(record, layout_.boundary, numbered);
@@ -148,7 +149,7 @@ void Overlap<D>::put_aside(BoundaryParts<D> &parts, std::uint64_t first, RecordS
     parts.rewind();
 }
 
-/// Takes the next facets into memory.
+/// Reads the next facets into memory.
 template <int D> void Overlap<D>::fill(RecordSort &boundary) {
     facets_.clear();
     tree_.clear();
@@ -187,7 +188,7 @@ void Overlap<D>::look_at_batch(std::size_t words, IsSound is_sound, Report repor
     struct Rest {
         std::size_t begin, end;
     };
-    Arena<Rest> rests(host_); // of each stretch, from the first record that is not sound
+    Arena<Rest> rests(host_); // of each stretch, from the first faulty record on
     rests.resize(loop_.stretches());
     loop_.each_stretch(n,
                        [&](std::size_t stretch, std::size_t i, std::size_t end, const Host &host) {
@@ -242,7 +243,7 @@ typename Overlap<D>::Cover Overlap<D>::covers(const Corners<D> &corners,
             replaced[k] = &facet.point[i];
             side = orientation<D>(replaced);
         }
-        if (side == 0) { // the facet lies in this plane: towards or away from the simplex
+        if (side == 0) { // the facet lies in this plane: on the simplex's side or beyond
             Corners<D> base;
             for (int i = 0; i < D; ++i) base[i] = &facet.point[i];
             base[D] = &facet.opposite;
@@ -280,7 +281,7 @@ bool Overlap<D>::each_crossed(const Word *numbered, const Host &host, Visit visi
     bool goes_on = true;
     tree_.visit(facet.box(), [&](std::size_t i) {
         host.poll();
-        if (first_ + i >= *numbered) return false; // itself and later ones: their turn comes
+        if (first_ + i >= *numbered) return false; // itself or a later one, which has its own turn
         goes_on = !meet_improperly(facet.vertices(), facets_[i].vertices()) || visit(i);
         return goes_on;
     });

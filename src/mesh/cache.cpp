@@ -28,7 +28,7 @@ template <int D> std::uint64_t Cache<D>::part(const Simplex<D> &s) const {
 }
 
 template <int D> Handle Cache<D>::closest_of_some(BlockIndex b, const Point<D> &p) const {
-    // A few samples: the walk is shorter by more than they cost.
+    // A few samples cost less than they shorten the walk.
     constexpr std::uint32_t samples = 16;
     Handle best = no_handle;
     double best_distance = 0;

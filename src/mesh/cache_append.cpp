@@ -1,5 +1,5 @@
-// Appending: pages of a mesh that comes in the order of keys, as when it is loaded. Each is
-// put together as a block like any other, so that there is one way only to make a page.
+// Appending: pages of a mesh that comes in the order of keys, as in loading. Each page is put
+// together as a block like any other, so that there is only one way to make a page.
 #include "mesh/cache.hpp"
 
 namespace abacus {

@@ -1,10 +1,10 @@
 // Misses and loading: from stored pages to linked simplices (dissertation §4.10).
 //
-// Inside a page simplices are linked by local numbers (inner_links.hpp). What finds no partner
-// there is the page's border. Vertices there may be cached already and are looked up by
-// coordinates, the others are new. Facets on the border look for their partner among the
-// visible facets, or become visible themselves. So the large hash tables are asked once for each
-// border vertex and border facet, never for each simplex.
+// Inside a page, simplices are linked by local numbers (inner_links.hpp). Facets without a partner
+// there are the page's border. Vertices on the border may be cached already and are looked up by
+// coordinates; the others are new. Facets on the border look for their partner among the visible
+// facets, or become visible themselves. So the large hash tables are used once for each border
+// vertex and border facet, never for each simplex.
 #include "mesh/cache.hpp"
 
 #include <cstddef>
@@ -30,7 +30,7 @@ template <int D> bool Cache<D>::follow_stored_link(Handle h, int facet, const Ke
         if (owner(beyond) == no_block) return false;
         if (present(h, facet)) return true;
     }
-    // Several pages may share the code: from the last one back.
+    // Several pages may share the code: start with the last one.
     for (Key key{beyond.code, key_word_end - 1};;) {
         ++counters.link_probes;
         const BlockIndex b = owner(key);
@@ -86,7 +86,7 @@ template <int D> void Cache<D>::load_vertices() {
         if (border_.has_vertex[n]) vertices_.prefetch_slot(view_.point(n));
     for (int n = 0; n < view_.vertices(); ++n)
         if (border_.has_vertex[n]) vertices_.prefetch_vertex(view_.point(n));
-    // By themselves, as each is a chain of table look-ups.
+    // In a loop of their own, as each is a chain of table look-ups.
     codes_.resize(static_cast<std::size_t>(view_.vertices()));
     for (int n = 0; n < view_.vertices(); ++n) codes_[n] = domain_.code(view_.point(n));
     border_.vertices.clear();
@@ -110,7 +110,7 @@ template <int D> void Cache<D>::load_vertices() {
     }
 }
 
-/// Where the vertices lie that were made for the page at hand, so that they can be asked for.
+/// The run of the vertices that were made for the current page, for prefetching.
 template <int D> VertexRun Cache<D>::run_of_vertices() const {
     VertexIndex least = free_mark, greatest{};
     for (std::size_t n = 0; n < border_.vertices.size(); ++n) {
@@ -124,7 +124,7 @@ template <int D> VertexRun Cache<D>::run_of_vertices() const {
 }
 
 template <int D> void Cache<D>::load_simplices(Handle first) {
-    uses_.resize(border_.vertices.size() + 1); // that of the point at infinity is the last
+    uses_.resize(border_.vertices.size() + 1); // the last is the point at infinity
     std::fill(uses_.begin(), uses_.end(), 0);
     for (int s = 0; s < view_.simplices(); ++s)
         for (int i = 0; i <= D; ++i) {
@@ -139,7 +139,7 @@ template <int D> void Cache<D>::load_simplices(Handle first) {
 }
 
 template <int D> void Cache<D>::link_outside() {
-    // What is read of other blocks lies in cold memory: table, entry, simplex.
+    // The data of other blocks lies in cold memory: table, entry, simplex.
     border_.hashes.resize(border_.facets.size());
     for (std::size_t i = 0; i < border_.facets.size(); ++i) {
         border_.hashes[i] = hash(border_.facets[i]);
@@ -185,7 +185,7 @@ template <int D> void Cache<D>::link_outside(Link link, std::uint32_t hash, cons
 
 template <int D> bool Cache<D>::leads_to(const Key &link, Handle h) const {
     if (link.code != code(slots_[h])) return false;
-    // A part of 0 may stand for any: there was none when the link was stored.
+    // A part of 0 may stand for any part: the code had no parts when the link was stored.
     return link.part == unknown_part || link.part == 0 || link.part == part(slots_[h]);
 }
 

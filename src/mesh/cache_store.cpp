@@ -1,13 +1,13 @@
 // From linked simplices to pages, and out of the cache (dissertation §4.5.2, §4.9).
 //
 // The walk that puts a block's simplices in the order of its page, or else a survey of the block,
-// also lists its border and numbers its vertices: by that the page is written, and the block
-// untied. Its links to simplices that stay become visible facets. Those to blocks that leave with
-// it need nothing. When all have left, the vertices on the borders that no cached simplex
-// uses any more are freed; those off the borders went with their blocks.
+// also lists its border and numbers its vertices. These lists serve to write the page and to untie
+// the block. Its links to simplices that stay become visible facets. Links to blocks that leave
+// with it need nothing. When all have left, border vertices that no cached simplex uses any more
+// are freed; the other vertices went with their blocks.
 //
-// What a page is made of lies in cold memory (blocks/block_cache_evict.hpp): the vertices, and
-// the simplices beyond the border. They are asked for before the first is read.
+// The contents of a page lie in cold memory (blocks/block_cache_evict.hpp): the vertices, and the
+// simplices beyond the border. They are prefetched before the first is read.
 #include "mesh/cache.hpp"
 
 #include "host/processor_cache.hpp"
@@ -46,7 +46,7 @@ template <int D> void Cache<D>::untie(BlockIndex b) {
     for_each_record(b, [&](Handle h) {
         for (const VertexIndex v : slots_[h].vertex) vertices_.release(v);
     });
-    // A vertex off the border has no other simplices than these.
+    // All simplices of a vertex off the border are in this block.
     for (std::size_t n = 0; n < border_.vertices.size(); ++n) {
         const VertexIndex v = border_.vertices[n];
         if (border_.has_vertex[n])
@@ -64,7 +64,7 @@ template <int D> void Cache<D>::end_eviction() {
         if (vertices_.in_use(v)) vertices_.prefetch_slot(point(v));
     border_.vertices.clear();
     for (const VertexIndex v : left_) {
-        if (border_.vertices.contains(vertices_, v)) continue; // on the border of several
+        if (border_.vertices.contains(vertices_, v)) continue; // on the border of several blocks
         border_.vertices.number(vertices_, v);
         if (vertices_.in_use(v))
             vertices_.share(v);
@@ -105,7 +105,7 @@ template <int D> void Cache<D>::survey(BlockIndex b) {
     mark_border();
 }
 
-/// Of the vertices numbered, and asks for the simplices beyond.
+/// Marks the vertices on the border, and prefetches the simplices beyond it.
 template <int D> void Cache<D>::mark_border() {
     border_.has_vertex.resize(border_.vertices.size());
     std::fill(border_.has_vertex.begin(), border_.has_vertex.end(), false);
@@ -128,7 +128,7 @@ template <int D> EncodedPage Cache<D>::encode_page(BlockIndex b) {
     writer_.order(&slots_[first], blocks_[b].high_water, first, vertices_, border_.vertices,
                   border_.facets);
     mark_border();
-    // The opposite vertex is all of the neighbour that is not the facet's.
+    // The opposite vertex is the neighbour's only one that is not on the facet.
     for (const Link inner : border_.facets) {
         const Link outer = slots_[link_simplex(inner)].link[link_facet(inner)];
         if (!is_absent(outer))

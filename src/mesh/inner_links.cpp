@@ -26,8 +26,8 @@ void InnerLinks<D>::join_trees(const PageView<D> &page, Simplex<D> *slots, Handl
         join(slots, first, make_link(Handle{page_simplex(parent)}, page_facet(parent)),
              make_link(static_cast<Handle>(s), page.facet_to_parent(s)));
     }
-    // The facets still open, gathered without a branch: which they are is hard to foresee.
-    open_.resize(std::size_t(simplices) * (D + 1) + 1); // one more, to be overwritten
+    // Gathers the open facets without a branch: which ones are open is hard to predict.
+    open_.resize(std::size_t(simplices) * (D + 1) + 1); // one more, which is overwritten
     Link *open = open_.begin();
     for (int s = 0; s < simplices; ++s)
         for (int i = 0; i <= D; ++i) {
@@ -48,7 +48,7 @@ void InnerLinks<D>::match_open(const PageView<D> &page, Simplex<D> *slots, Handl
     for (const Link link : open_) {
         const int s = static_cast<int>(link_simplex(link)), i = link_facet(link);
         if (is_loose_ridge<D>(linked_ghosts, page.is_ghost(s), i)) {
-            slots[s].link[i] = link_from(first, link); // its own neighbour
+            slots[s].link[i] = link_from(first, link); // a link to itself
             continue;
         }
         const FacetVertices<D, std::uint32_t> facet(page.corners(s), i);
@@ -70,7 +70,7 @@ void InnerLinks<D>::match_open(const PageView<D> &page, Simplex<D> *slots, Handl
     }
 }
 
-/// What has found no partner, in the order of its simplices.
+/// Lists the facets without a partner, in the order of their simplices.
 template <int D>
 void InnerLinks<D>::list_border(const PageView<D> &page, Handle first, Arena<Link> &border,
                                 Arena<bool> &on_border) const {

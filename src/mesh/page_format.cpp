@@ -10,7 +10,7 @@ namespace abacus {
 
 namespace {
 
-// In sight of each of its callers: some are in loops.
+// Inline in all callers: some are in loops.
 [[gnu::always_inline]] inline void require(bool condition, const char *detail) {
     if (!condition) [[unlikely]]
         throw_corrupted(detail);
@@ -146,7 +146,7 @@ template <int D> std::size_t PageView<D>::read_root(int s, std::size_t named, st
     corner = Lanes{} + no_vertex;
     for (int i = 0; i <= D; ++i) {
         const auto v = static_cast<std::uint16_t>(numbers_.narrow(named++));
-        // The next one is new; only the last corner may be at infinity.
+        // The next new vertex has number `fresh`; only the last corner may be at infinity.
         require(v == infinity ? i == D : v <= fresh, unknown_vertex);
         fresh += v == fresh && fresh < infinity;
         for (int j = 0; j < i; ++j) require(corner[j] != v, repeated_vertex);
@@ -157,16 +157,16 @@ template <int D> std::size_t PageView<D>::read_root(int s, std::size_t named, st
 
 template <int D> void PageView<D>::read_patch(int patch) {
     const auto infinity = static_cast<std::size_t>(vertices());
-    const BitFields numbers = numbers_; // here and below: in registers
+    const BitFields numbers = numbers_; // copied here and below to be in registers
     auto named = static_cast<std::size_t>(named_of(patch).begin);
     auto fresh = static_cast<std::size_t>(fresh_of(patch).begin);
     const auto named_end = static_cast<std::size_t>(named_of(patch).end);
     int s = simplices_of(patch).begin;
     const int patch_end = simplices_of(patch).end;
     PageLink *reached = parents_.data() + s;
-    Lanes repeated{}; // where an apex is, too
-    // What comes next is as hard to foresee as a coin: branches only lead to errors, and those
-    // that nothing of this loop relies on are reported after it.
+    Lanes repeated{}; // where a simplex has its apex twice
+    // The next step is as hard to predict as a coin toss. So branches only lead to errors, and
+    // errors that do not affect this loop are reported after it.
     while (s < patch_end) {
         std::uint64_t steps = steps_.word(static_cast<std::size_t>(s));
         for (const int end = std::min(s + simplices_at_once, patch_end); s < end; ++s) {

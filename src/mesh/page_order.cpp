@@ -1,9 +1,9 @@
-// The order of a page's simplices: trees, breadth first across facets, by the dozen in patches
+// The order of a page's simplices: trees, breadth first across facets, in patches of a few dozen
 // (mesh/page_format.hpp). The same tour numbers the vertices and lists the border.
 //
-// What comes next in a tree is as hard to foresee as a coin, so nothing is decided by a branch
-// where a sum will do: what is written may be overwritten by the next, and a cursor moves on by
-// 0 or 1. All of a tour is compiled in line, so that its cursors stay in registers.
+// The next step in a tree is as hard to predict as a coin toss, so no branch decides where a sum
+// will do: the next value may overwrite the one written, and a cursor moves on by 0 or 1. The whole
+// tour is compiled inline, so that its cursors stay in registers.
 #include "mesh/page_writer.hpp"
 
 #include <algorithm>
@@ -12,9 +12,9 @@ namespace abacus {
 
 namespace {
 
-/// Where in a slot the facets of a simplex are, but for that to its parent. Corners and slot have
-/// the same orientation, and that facet is `entry` among the corners, `mirror` in the slot: this
-/// is all in 2D. In 3D the place of one corner more is asked for, which is on that facet.
+/// Where in a slot the facets of a simplex are, except the facet to its parent. Corners and slot
+/// have the same orientation, and that facet is `entry` among the corners, `mirror` in the slot. In
+/// 2D this is enough. In 3D the place of one more corner is needed, which is on that facet.
 template <int D> class OtherFacets {
 public:
     using Places = std::array<std::uint8_t, 4>;
@@ -48,8 +48,8 @@ template <int D> constexpr OtherFacets<D> other_facets;
 
 } // namespace
 
-/// A tour through the slots of a block. Arrays have room for one element more than there may be,
-/// which is overwritten.
+/// A tour through the slots of a block. The arrays have room for one more element than there may
+/// be, which is overwritten.
 template <int D> class PageWriter<D>::Tour {
 public:
     [[gnu::always_inline]] Tour(PageWriter &page, const Simplex<D> *slots, std::uint32_t end,
@@ -76,8 +76,9 @@ public:
     const Link *border_end() const { return to_border_; }
 
 private:
-    /// The next simplex that no tree has reached begins one; false if there is none. Goes on where
-    /// trees were cut off: so patches are compact, and few remnants are left.
+    /// Begins a tree at the next simplex that no tree has reached; false if there is none. It
+    /// prefers simplices where trees were cut off: so patches are compact, and few remnants are
+    /// left.
     [[gnu::always_inline]] inline bool begin_tree(std::uint32_t at) {
         while (next_cut_ < cut_ && reached_[*next_cut_]) ++next_cut_;
         while (root_ < end_ && (reached_[root_] || slots_[root_].is_free())) ++root_;
@@ -98,7 +99,7 @@ private:
                             {},
                             {}});
     }
-    /// Names a vertex; returns whether it has the next number, so that its name may be left out.
+    /// Names a vertex; returns whether it has the next number, so that its name can be omitted.
     [[gnu::always_inline]] inline unsigned number(VertexIndex v) {
         if (v == infinite_vertex) [[unlikely]] {
             *named_ = none;
@@ -109,7 +110,8 @@ private:
         *named_ = static_cast<std::uint16_t>(number);
         return number == next;
     }
-    /// Facet f among the corners, i in the slot: a child, 1, or none.
+    /// Looks across facet f among the corners, i in the slot; returns 1 if a child lies there, else
+    /// 0.
     [[gnu::always_inline]] inline unsigned look_across(std::uint32_t at, std::uint32_t slot, int f,
                                                        int i) {
         const Link link = slots_[slot].link[i];
@@ -189,7 +191,7 @@ void PageWriter<D>::order(const Simplex<D> *slots, std::uint32_t end, Handle fir
     cut_.resize(facets + 1);
     reached_.resize(std::size_t(end) + 1);
     std::fill_n(reached_.begin(), end, 0);
-    reached_[end] = 1; // what is outside is never reached
+    reached_[end] = 1; // outside counts as reached
     patches_.clear();
 
     Tour tour(*this, slots, end, first, vertices, numbered, border);

@@ -62,8 +62,8 @@ template <int D> void PageWriter<D>::bound_patches() {
     }
 }
 
-/// A link is the number of a vertex with its code, mostly one on the border; after the
-/// vertices come the codes that none of them has.
+/// Codes each link as the number of a vertex with its code, mostly one on the border. After the
+/// vertices come the codes that no vertex has.
 template <int D>
 void PageWriter<D>::code_links(const Vertices &vertices, const Numbering &numbered,
                                const bool *on_border) {
@@ -85,7 +85,7 @@ void PageWriter<D>::code_links(const Vertices &vertices, const Numbering &number
     const int shift = 64 - std::countr_zero(size);
     index_.resize(size);
     std::fill(index_.begin(), index_.end(), none);
-    // The place of a code, or the free one that it would have.
+    // The slot of a code, or the free one that it would have.
     const auto place = [&](std::uint64_t code) -> std::uint16_t & {
         std::size_t at = code * 0x9e3779b97f4a7c15ull >> shift;
         while (index_[at] != none && codes_[index_[at]] != code) at = (at + 1) & (size - 1);
@@ -133,7 +133,7 @@ template <int D> void PageWriter<D>::write(const Key &lower, const Key &upper) {
     std::memcpy(page_, &header, sizeof header);
     unsigned char *at = page_ + sizeof header;
     const std::size_t patches = patches_.size() * sizeof(PagePatch<D>);
-    if (patches != 0) std::memcpy(at, patches_.data(), patches); // else there may be no data()
+    if (patches != 0) std::memcpy(at, patches_.data(), patches); // otherwise data() may be null
     at += patches;
     for (const ColumnPlan &plan : plans_) at = plan.write_head(at);
     at = foreign_plan_.write_head(at);

@@ -1,5 +1,5 @@
-// Probing: finding the page of a neighbour of which only the shared facet is known
-// (dissertation §4.10). Three methods, from speculative to certain:
+// Probing: finding the page of a neighbour when only the shared facet is known (dissertation
+// §4.10). Three methods, from speculative to certain:
 //
 //   quick       the page of the facet's greatest vertex, which gives the neighbour its key
 //               unless the neighbour's other vertex is greater still
@@ -69,7 +69,7 @@ template <int D> void Cache<D>::probe(Handle h, int facet) {
     throw_corrupted("A facet has no simplex on its other side.");
 }
 
-/// Whether a page came in.
+/// Whether a page was loaded.
 template <int D> bool Cache<D>::load_uncached(std::uint64_t code) {
     const Key key{code, 0};
     if (cached_owner(key) != no_block) return false;
@@ -127,7 +127,7 @@ template <int D> bool Cache<D>::ray_probe(Handle h, int facet, const Cell<D> &mi
                 ++counters.ray_probes;
                 if (present(h, facet)) return true;
             }
-            // To the exit from this octant, and half a cell on.
+            // Go to the exit from this octant, and half a cell further.
             const double size = std::ldexp(1.0, octant_level(cell));
             double exit = std::numeric_limits<double>::infinity();
             for (int axis = 0; axis < D; ++axis) {
@@ -173,7 +173,7 @@ template <int D> bool Cache<D>::concentric_probe(Handle h, int facet, const Cell
     return probe_every_page(h, facet);
 }
 
-/// What is still not found may be anywhere.
+/// A neighbour that is still not found may be anywhere.
 template <int D> bool Cache<D>::probe_every_page(Handle h, int facet) {
     Key last{};
     const Key *after = nullptr;

@@ -13,7 +13,7 @@ void StoredPages::stored(abacus_page_kind kind, const abacus_page &page) {
     std::memcpy(&header, page.bytes, sizeof header);
     const std::uint64_t end = header.upper.code + (header.upper.part > 0);
     stretches_.push_back({header.lower.code, end - 1});
-    if (stretches_.size() >= few + 2 * merged_) merge(); // as many as pages of the mesh at most
+    if (stretches_.size() >= few + 2 * merged_) merge(); // at most as many as the mesh has pages
 }
 
 const Arena<StoredPages::Stretch> &StoredPages::stretches() {

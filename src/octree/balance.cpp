@@ -8,8 +8,8 @@
 namespace abacus {
 namespace {
 
-/// What the octants of a level ask of the level above, family by family: siblings come one after
-/// the other and ask for much the same.
+/// The requests of a level's octants to the level above, family by family: siblings follow one
+/// another and request almost the same.
 template <int D> class Requests {
 public:
     Requests(int across, RecordSort &asked, int level) : asked_(asked), level_(level) {
@@ -21,7 +21,7 @@ public:
                 way.direction[i] = rest % 3 - 1;
                 moved += way.direction[i] != 0;
             }
-            // The children of the parent that have a neighbour beyond it there.
+            // The children that touch a neighbour of the parent in this direction.
             for (int child = 0; child < Octant<D>::children; ++child) {
                 bool touches = moved <= across;
                 for (int i = 0; i < D; ++i)
@@ -32,7 +32,7 @@ public:
         }
     }
 
-    /// The next octant of the level that is split.
+    /// Adds the next split octant of the level.
     void add(std::uint64_t code) {
         const Octant<D> octant{code, level_};
         if (octant.parent().code != parent_) {
@@ -41,7 +41,7 @@ public:
         }
         siblings_ |= 1u << octant.number();
     }
-    /// No more come in the family.
+    /// The family has no more octants.
     void ask() {
         if (siblings_ == 0) return;
         const Octant<D> parent{parent_, level_ - 1};
@@ -73,7 +73,7 @@ private:
     const int level_;
     std::array<Way, ways> ways_{};
     std::uint64_t parent_ = SplitOctants<D>::none;
-    unsigned siblings_ = 0; // those of the family that are split
+    unsigned siblings_ = 0; // siblings of the family that are split
     std::array<std::uint64_t, remembered> recent_;
 };
 

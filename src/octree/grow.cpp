@@ -105,7 +105,7 @@ template <int D> void Growth<D>::split_in_place(abacus_header &header) {
 template <int D>
 template <class SplitTo>
 void Growth<D>::each_crowded(RecordSpool &ahead, std::uint64_t most, SplitTo split_to) {
-    // An octant has too many points if it has one and the one that comes `most` later.
+    // An octant has too many points if it has both a point and the one `most` places later.
     ahead.rewind();
     places_.rewind();
     bool is_there = true;
@@ -177,7 +177,8 @@ template <int D> void Growth<D>::rewrite(SplitOctants<D> &octants, abacus_header
             do {
                 if (!octants.next_leaf(leaf) || !old.contains(leaf.code))
                     throw_octree_corrupted("Leaves changed while they were being read.");
-                // Of leaves merged across a border: some of its children begin on later pages.
+                // If leaves were merged across a border, some children of a leaf begin on later
+                // pages.
                 while (leaf.code >= before.upper()) turn_page();
                 writer.add(leaf, values, !(leaf == old));
                 ++leaves;
@@ -193,7 +194,7 @@ template <int D> void Growth<D>::rewrite(SplitOctants<D> &octants, abacus_header
 
 // ---- Sizes ---------------------------------------------------------------------
 
-/// Asks for the sizes of octants, many at once, and collects those that are to be split.
+/// Asks for the sizes of octants, many at once, and collects the octants to split.
 template <int D> class Growth<D>::Asker {
 public:
     Asker(Growth &growth, abacus_octree_sizes sizes, void *context, SplitOctants<D> &wanted)
@@ -205,7 +206,7 @@ public:
         growth.pacer_.begin(ABACUS_PHASE_READING, 0);
     }
 
-    /// Octants of a level, and the spool of those that are split.
+    /// Begins a level, with a spool for its octants that are split.
     void begin(int level, RecordSpool &split) {
         level_ = level;
         split_ = &split;
@@ -214,7 +215,7 @@ public:
         codes_.push_back(code);
         if (codes_.size() == at_once) ask();
     }
-    /// No more come of the level.
+    /// The level has no more octants.
     void ask();
 
 private:
@@ -225,7 +226,7 @@ private:
     void *context_;
     SplitOctants<D> &wanted_;
     Arena<std::uint64_t> codes_;
-    Arena<double> centers_, edges_, sizes_; // the first axis by axis
+    Arena<double> centers_, edges_, sizes_; // centers_ axis by axis
     int level_ = 0;
     RecordSpool *split_ = nullptr;
     std::uint64_t asked_ = 0;
@@ -260,7 +261,7 @@ void Growth<D>::to_sizes(abacus_octree_sizes sizes, void *context, abacus_header
     });
     leaves.rewind();
     Asker asker(*this, sizes, context, wanted);
-    // Level by level: the leaves that there were, and the children of what was split.
+    // Level by level: the leaves of the octree, and the children of octants that were split.
     std::array<std::optional<RecordSpool>, 2> splits; // of even and odd levels
     splits[1].emplace(host_, 1);
     for (int level = 0; level < levels_; ++level) {

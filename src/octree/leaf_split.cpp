@@ -3,7 +3,7 @@
 namespace abacus {
 namespace {
 
-/// A face as a ring of places, corners and middles of edges by turns, and its middle.
+/// A face as a ring of places, where corners and middles of edges alternate, and its middle.
 struct Ring {
     std::array<int, 8> around;
     int middle;
@@ -27,7 +27,7 @@ template <int D> int first_of(const typename LeafSplit<D>::Nodes &nodes, int a, 
     return a < 0 || nodes[b] < nodes[a] ? b : a;
 }
 
-/// Where a face is cut from.
+/// The place from which a face is cut.
 template <int D> int apex_of(const typename LeafSplit<D>::Nodes &nodes, const Ring &ring) {
     if (nodes[ring.middle] != LeafSplit<D>::no_node) return ring.middle;
     int middle = -1, corner = -1;
@@ -51,7 +51,7 @@ void cut(const typename LeafSplit<D>::Nodes &nodes, const Ring &ring, Visit visi
     }
 }
 
-/// Where a leaf in space is cut from.
+/// The place from which a leaf in space is cut.
 int apex_of(const LeafSplit<3>::Nodes &nodes) {
     int other = -1, corner = -1;
     for (int place = 0; place < LeafSplit<3>::places; ++place) {

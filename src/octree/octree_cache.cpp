@@ -48,7 +48,7 @@ template <int D> Handle OctreeCache<D>::find(std::uint64_t cell) {
             this->use(h);
             return h;
         }
-        // It begins on an earlier page, behind which leaves have been merged.
+        // The leaf begins on an earlier page: leaves after that have been merged.
         if (blocks_[b].lower == first_key)
             throw_octree_corrupted("A part of the domain is in no leaf.");
         key = predecessor(blocks_[b].lower);
@@ -98,8 +98,8 @@ template <int D> std::uint64_t OctreeCache<D>::merge(const Octant<D> &merged) {
     std::uint64_t leaves = 0;
     this->poll();
     for (int i = 0; i < Octant<D>::children; ++i) leaves += merge(merged.child(i));
-    // Now its children are leaves, perhaps on several pages. The first one, which begins where they
-    // do together, takes the place of all.
+    // Now its children are leaves, perhaps on several pages. The first one, which begins at the
+    // same place, replaces them all.
     const Handle first = leaf(merged.child(0));
     std::fill(kept_.begin(), kept_.end(), 0);
     for (int i = 0; i < Octant<D>::children; ++i) {

@@ -34,7 +34,7 @@ template <int D> void OctreeEdit<D>::set_at(std::uint64_t cell, const double *va
 }
 
 template <int D> std::uint64_t OctreeEdit<D>::merge(abacus_header &header) {
-    // The coarsest comes first where several begin.
+    // If several begin at the same cell, the coarsest comes first.
     changes_.finish();
     pacer_.begin(ABACUS_PHASE_LOCATING, changes_.size());
     std::uint64_t merged = 0, done = 0;
@@ -56,7 +56,7 @@ template <int D> std::uint64_t OctreeEdit<D>::set(abacus_header &header) {
     std::uint64_t set = 0, done = 0, end = 0, last = 0;
     while (const std::uint64_t *change = changes_.next()) {
         const Handle h = cache_.find(change[0]);
-        // The rows of a leaf follow one another, by their cells.
+        // The rows of a leaf follow one another, ordered by their cells.
         if (cache_.octant(h).end() != end) {
             ++set;
             end = cache_.octant(h).end();

@@ -42,7 +42,7 @@ template <int D> void OctreeLoad<D>::write(abacus_header &header) {
                     "Load the rows into a new octree.");
     LeafWriter<D> writer(host_, facts_);
     writer.begin(0, before.location());
-    // Leaves that were merged may have left empty pages behind.
+    // Merging leaves may have left empty pages.
     while (before.next_page())
         host_.erase(ABACUS_OCTANT_PAGES, {{before.lower(), 0}, nullptr, 0, before.location()});
     leaves_.finish();
@@ -68,7 +68,7 @@ template <int D> void OctreeLoad<D>::write(abacus_header &header) {
     writer.end(key_word_end);
     header.facts.census.leaves = n;
     header.counters += writer.counters();
-    ++header.counters.deleted; // the leaf that there was
+    ++header.counters.deleted; // the leaf of the new octree
 }
 
 template class OctreeLoad<2>;

@@ -9,7 +9,7 @@
 namespace abacus {
 namespace {
 
-// Leaves come along the curve, or nearly so: what was read is soon done with.
+// Leaves come along the curve, or nearly so: the cache does not need them for long.
 constexpr std::size_t cache_bytes = std::size_t{1} << 20;
 
 /// Whether the drawing leaves out the leaf.
@@ -40,7 +40,7 @@ void show(const Box<2> &leaf, double value, const abacus_drawing &drawing, Pictu
 /// Leaves cut by a plane.
 class Sections {
 public:
-    /// `sheet`: what is drawn of it, with its margin.
+    /// `sheet`: the part of the plane that is drawn, with its margin.
     Sections(const Host &host, const abacus_facts &facts, const Plane &plane,
              const abacus_drawing &sheet)
         : host_(host), reader_(host, facts, cache_bytes), plane_(plane), sheet_(sheet),
@@ -95,7 +95,7 @@ private:
     const bool has_window_;
 };
 
-/// Whether places that lie in a plane are a face of the leaf beyond which the domain ends.
+/// Whether places that lie in a plane are a face of the leaf where the domain ends.
 bool is_outer_face(const Octant<3> &leaf, unsigned places) {
     const Cell<3> at = leaf.cell();
     for (int axis = 0; axis < 3; ++axis)
@@ -128,9 +128,9 @@ void put_around(Patch &patch) {
         std::copy_n(before.corner[order[i].second], 2, patch.corner[i]);
 }
 
-// As of tetrahedra (draw/section.hpp): a corner on the plane counts as one just above it, so of two
-// leaves with a face in the plane the lower one has it. Where there is no lower one, as the domain
-// ends, it is the upper one's.
+// As for tetrahedra (draw/section.hpp), a corner on the plane counts as one just above it. So if
+// two leaves have a face in the plane, the lower one shows it. At the end of the domain there is no
+// lower leaf, and the upper one shows it.
 bool Sections::cut(const Octant<3> &leaf, const Place (&places)[corners], Patch &patch) const {
     unsigned below = 0, on = 0;
     for (int i = 0; i < corners; ++i) {

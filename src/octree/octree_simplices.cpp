@@ -5,7 +5,7 @@
 namespace abacus {
 namespace {
 
-/// Whether places in a lattice are those of a simplex of positive orientation.
+/// Whether places in a lattice are the corners of a positively oriented simplex.
 template <int D> bool is_positive(const typename LeafSplit<D>::Simplex &simplex) {
     std::array<std::array<int, D>, D> edge;
     const auto from = LeafSplit<D>::lattice(simplex[0]);

@@ -19,7 +19,7 @@ SQL_FUNCTION(abacus_sql_version);
 
 extern PGDLLEXPORT void _PG_init(void);
 
-/* What is bound to a mesh and comes from a dump. */
+/* Binds what belongs to a mesh and comes from a dump. */
 static void
 bind_restored(Relation mesh)
 {
@@ -37,7 +37,7 @@ _PG_init(void)
 	pending_init();
 }
 
-/* Version of the module, which may differ from that of the extension's SQL objects. */
+/* The version of the module, which may differ from that of the extension's SQL objects. */
 Datum
 abacus_sql_version(PG_FUNCTION_ARGS)
 {

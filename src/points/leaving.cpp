@@ -53,7 +53,7 @@ bool Leaving::offer(std::int64_t id, const double *attributes, std::uint64_t ser
         wanted->behind += is_behind;
         unmet_ -= ++wanted->offered == wanted->times;
     }
-    return unmet_ > 0; // otherwise every want is met by its id
+    return unmet_ > 0; // otherwise every want has found its id
 }
 
 std::uint32_t Leaving::choose(Wanted &wanted) {

@@ -181,7 +181,7 @@ template <int D> std::uint64_t RepeatedPoints<D>::take_all(const Point<D> &p) {
     const Key from{domain_.code(p), 0};
     std::uint64_t taken = 0;
     if (!go_to(from)) return 0;
-    // In one run: a search from the beginning would pass all pages that have been erased.
+    // In one run: a new search from the beginning would pass all erased pages.
     do {
         for (std::size_t i = lower_bound(from); i < count() && key_of(entry(i)).code == from.code;)
             if (record_point<D>(record_of(entry(i))) == p) {
@@ -199,7 +199,7 @@ template <int D> void RepeatedPoints<D>::flush() {
     if (!dirty_) return;
     dirty_ = false;
     if (count() == 0 && (!(lower_ == first_key) || upper_ == end_key)) {
-        // The page before, if there is one, gets the interval.
+        // The page before, if there is one, takes over the interval.
         at_page_ = false;
         if (location_ != 0) host_.erase(ABACUS_REPEATED_PAGES, {lower_, nullptr, 0, location_});
         return;

@@ -7,17 +7,19 @@
 namespace abacus {
 
 namespace {
-/// So many points should not have one code, as a power of two: they take a good part of a page.
+/// The logarithm of the number of points with one code that make a crowd: they take a good part of
+/// a page.
 constexpr int crowd_log = 5;
 /// Share of the points that may be misplaced without harm.
 constexpr std::size_t harmless = 16;
-/// On either side of an interval of the sample, of its extent: for the points that are not in it.
+/// Room on either side of an interval of the sample, as a share of its extent: for points that are
+/// not in the sample.
 constexpr double room = 0.5;
 
 bool is_far_less(std::size_t misplaced, std::size_t than) { return 2 * misplaced < than; }
 } // namespace
 
-/// Leaves each point once, and no more than belong to the sample.
+/// Keeps each point once, and no more points than belong to the sample.
 template <int D> void Spread<D>::cut() {
     std::sort(sample_.begin(), sample_.end(), [](const Drawn &a, const Drawn &b) {
         return a.hash < b.hash || (a.hash == b.hash && lexicographically_less<D>(a.point, b.point));
@@ -32,8 +34,8 @@ template <int D> void Spread<D>::cut() {
 template <int D> std::size_t Spread<D>::misplaced_by(const Box<D> &box) {
     const Domain<D> domain = domain_around<D>(box.lower, box.upper);
     const Box<D> inside(domain.lower(), domain.upper());
-    // The sample has one of 2^n points. In a cell of 2^m codes a crowd has 2^(m + 5 - n) of it,
-    // and for that to be some, a cell may have to be larger than a code.
+    // The sample has one of 2^n points. In a cell of 2^m codes, a crowd has 2^(m + 5 - n) of it.
+    // That number must be at least some points, so a cell may have to be larger than a code.
     const int n = std::countl_zero(least_excluded_);
     const int cell_bits = std::max(0, n + 1 - crowd_log);
     const std::size_t crowd = std::size_t{1} << (cell_bits + crowd_log - n);
@@ -51,7 +53,7 @@ template <int D> std::size_t Spread<D>::misplaced_by(const Box<D> &box) {
     return misplaced;
 }
 
-/// On each axis the shortest interval that has all of the sample but a few points.
+/// On each axis, the shortest interval that contains all of the sample except a few points.
 template <int D> Box<D> Spread<D>::all_but(std::size_t few, const Arena<double> &sorted) const {
     const std::size_t n = sample_.size();
     Box<D> box;

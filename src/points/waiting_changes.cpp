@@ -54,7 +54,7 @@ template <int D> std::uint64_t WaitingChanges<D>::choose() {
     return missing;
 }
 
-/// Each page once.
+/// Writes each page once.
 template <int D> void WaitingChanges<D>::write() {
     const std::size_t stride = record_words(D, attributes_);
     std::uint64_t words[ABACUS_MAX_PAGE_BYTES / 8];

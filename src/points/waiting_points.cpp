@@ -4,8 +4,8 @@
 
 namespace abacus {
 
-/// The points that the wants of a place can take: as many first points as there are wants, and
-/// behind them, of each identity, as many as are wanted.
+/// Finds the points that the wants of a place can take: as many first points as there are wants,
+/// and after them, for each identity, as many as are wanted.
 template <int D> void WaitingPoints<D>::find_candidates(std::uint64_t from, std::uint64_t to) {
     const auto at_place = [](const Wanted &a, const Wanted &b) { return a.point < b.point; };
     const auto by_identity = [](const Wanted &a, const Wanted &b) {
@@ -34,7 +34,7 @@ template <int D> void WaitingPoints<D>::find_candidates(std::uint64_t from, std:
     }
 }
 
-/// Each place chooses among its candidates, for its wants in their order.
+/// For each place, its wants choose among its candidates in their order.
 template <int D> void WaitingPoints<D>::choose() {
     found_.clear();
     std::sort(candidates_.begin(), candidates_.end(), [](const Candidate &a, const Candidate &b) {
@@ -61,7 +61,7 @@ template <int D> void WaitingPoints<D>::choose() {
     std::sort(found_.begin(), found_.end());
 }
 
-/// Writes those that do not leave behind the last page, and erases the pages it has read.
+/// Writes the points that do not leave after the last page, and erases the pages it has read.
 template <int D>
 template <class Leaves>
 std::uint64_t WaitingPoints<D>::take_those(std::uint64_t &from, std::uint64_t &to, Leaves leaves) {

@@ -47,8 +47,8 @@ BalancedOctree::BalancedOctree(double frequency, double points_per_wavelength) {
     };
     require_positive(frequency, "frequency");
     require_positive(points_per_wavelength, "points_per_wavelength");
-    // Mantissas and exponents apart: no product on the way overflows or underflows where the last
-    // one does not.
+    // Mantissas and exponents apart, so that no intermediate product overflows or underflows unless
+    // the result does.
     int frequency_exponent, points_exponent;
     const double slowness = unit * std::frexp(frequency, &frequency_exponent) *
                             std::frexp(points_per_wavelength, &points_exponent);
@@ -69,7 +69,7 @@ bool BalancedOctree::is_too_coarse(const BasinOctant &octant) const {
     return Basin::slowest(ground(octant, 0)) < resolved_[octant.shift];
 }
 
-/// Whether there may be an octant around this one that is too coarse at half its edge or less.
+/// Whether an octant around this one may be too coarse at half its edge or less.
 bool BalancedOctree::may_be_pressed(const BasinOctant &octant) const {
     return Basin::slowest(ground(octant, 1u << octant.shift)) < resolved_[octant.shift - 1];
 }

@@ -7,10 +7,10 @@ namespace abacus {
 
 namespace {
 
-/// Of an element that is ranked in memory: its record, and its rank.
+/// What an element takes when it is ranked in memory: its record, and its rank.
 constexpr std::size_t bytes_in_memory = 7 * sizeof(std::uint64_t);
 
-/// A coin for each element, another one in each round.
+/// A coin toss for each element, a new one in each round.
 bool has_heads(std::uint64_t number, unsigned round) {
     std::uint64_t word = number + 0x9e3779b97f4a7c15 * (round + 1);
     word = (word ^ word >> 30) * 0xbf58476d1ce4e5b9;
@@ -45,7 +45,7 @@ void ChainRank::finish() {
 }
 
 void ChainRank::contract(unsigned round) {
-    // Links from heads to tails, by where they lead: that one, where from, weight there.
+    // Links from heads to tails, sorted by tail: the tail, the head, the head's weight.
     RecordSort links(host_, 3, 1, memory_);
     elements_->rewind();
     while (const std::uint64_t *e = elements_->next())
@@ -53,7 +53,7 @@ void ChainRank::contract(unsigned round) {
             copy<3>(links.add(), {e[1], e[0], e[2]});
     links.finish();
 
-    // By where they come from: that one, its new successor, weight added.
+    // Changes, sorted by head: the head, its new successor, the weight to add.
     RecordSort changes(host_, 3, 1, memory_);
     RecordSpool kept(host_, element);
     const std::uint64_t *link = links.next();
@@ -90,7 +90,7 @@ void ChainRank::contract(unsigned round) {
     changes.close();
 }
 
-/// Each that is left is all of a chain.
+/// Each element that is left is a chain of its own.
 void ChainRank::rank_alone() {
     ranks_.emplace(host_, rank);
     elements_->rewind();

@@ -23,7 +23,7 @@ RecordSort::RecordSort(const Host &host, std::size_t stride, std::size_t key, st
     const std::size_t bytes = stride * sizeof(std::uint64_t);
     const std::size_t piece_bytes = std::clamp(memory / 64, least_piece_bytes, most_piece_bytes);
     piece_ = std::max<std::size_t>(1, piece_bytes / bytes);
-    // A quarter for merging; runs of two levels wait.
+    // A quarter of the memory for merging; runs of two levels wait.
     fan_in_ = static_cast<unsigned>(std::clamp<std::size_t>(
         memory / 4 / (piece_bytes + 2 * host_bytes_per_spool), least_fan_in, most_fan_in));
     room_ = std::clamp<std::size_t>(memory / 8 * 5 / (bytes + sort_bytes_per_record), 16,
@@ -132,7 +132,7 @@ void RecordSort::sort_buffer() {
     at_ = 0;
 }
 
-/// Makes a run of the buffer.
+/// Makes a run from the buffer.
 void RecordSort::spill() {
     sort_buffer();
     Run run{Spool(), 0, 0, 0};
@@ -151,12 +151,12 @@ void RecordSort::spill() {
     merge_level(0);
 }
 
-/// Makes one run of the last ones, if there are enough of this level.
+/// Merges the last runs into one, if there are enough of this level.
 void RecordSort::merge_level(unsigned level) {
     std::size_t first = runs_.size();
     while (first > 0 && runs_[first - 1].level == level) --first;
     if (runs_.size() - first < fan_in_) return;
-    double merging = 0; // records, which are there twice until all are merged
+    double merging = 0; // records, which exist twice until all are merged
     for (std::size_t i = first; i < runs_.size(); ++i)
         merging += static_cast<double>(runs_[i].spool.size());
     host_.spool_expect(merging * record_bytes());

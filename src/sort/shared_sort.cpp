@@ -9,20 +9,20 @@ namespace abacus {
 
 namespace {
 
-/// Words that are worth starting threads.
+/// From this number of words on, threads are worth starting.
 constexpr std::size_t worth_sharing = 1 << 16;
 constexpr int shared_digit_bits = 11;
 constexpr std::size_t shared_digits = std::size_t{1} << shared_digit_bits;
-/// Pieces for each thread, so that none waits long for the last one.
+/// Pieces for each thread, so that no thread waits long for the last one.
 constexpr std::size_t pieces_a_thread = 8;
 
-/// Words with some leading digits, which come one after the other.
+/// Consecutive words whose leading digits belong together.
 struct Piece {
     std::size_t begin, end;
 };
 
-/// Makes the counts of digits in each stretch the places of the first word of each digit
-/// from there. Adds pieces of whole digits, of so many words at least.
+/// Turns the counts of digits in each stretch into the places of the first word of each digit from
+/// there. Adds pieces of whole digits, with at least this many words.
 void place(Arena<std::uint32_t> &counts, std::size_t least, Arena<Piece> &pieces) {
     std::uint32_t sum = 0;
     std::size_t begin = 0;

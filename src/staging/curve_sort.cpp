@@ -35,8 +35,7 @@ const std::uint64_t *CurveSort<D>::sort_each(const std::uint64_t *records, const
 template <int D>
 void CurveSort<D>::begin(const std::uint64_t *records, std::size_t n, const Pacer &pacer) {
     records_ = records;
-    // It may be much memory, and a single request for all of it could not be
-    // interrupted.
+    // This may be much memory, and a single request for all of it could not be interrupted.
     memory_.reserve(2 * n);
     pacer.each_piece(2 * n, [&](std::size_t, std::size_t end) { memory_.resize(end); });
     words_ = memory_.data();

@@ -10,20 +10,18 @@ namespace {
 
 /// What an open spool costs the host: a database buffers a page of each file.
 constexpr std::size_t host_bytes_per_spool = 8192;
-/// With more spools at once the writes would only become smaller.
+/// More spools at once would only make the writes smaller.
 constexpr unsigned most_spools = 256;
 constexpr std::size_t least_piece_bytes = 8192, most_piece_bytes = 16384;
-/// Page being filled, handle, lists of parts.
+/// The page being filled, the handle, the lists of parts.
 constexpr std::size_t overhead = 65536;
-/// Share of the memory that a part is meant to fill; the rest is for the errors
-/// of the sample.
+/// Share of the memory that a part should fill; the rest allows for errors of the sample.
 constexpr double fill = 0.75;
-/// A part that is sorted in the processor's cache: its records come to the sink without
-/// misses. So parts are smaller than memory where there are spools for them.
+/// The size of a part that is sorted in the processor's cache: its records come to the sink without
+/// misses. So parts are smaller than memory if there are spools for them.
 constexpr std::size_t cached_part_bytes = std::size_t{1} << 20;
-/// Records that are copied together from their places in memory. Each copy misses all
-/// caches, that of page addresses included. In a loop of their own many of these misses
-/// overlap.
+/// Records that are copied together from their places in memory. Each copy misses all caches, even
+/// that of page addresses. In a loop of their own, many of these misses overlap.
 constexpr std::size_t gathered_at_once = 64;
 /// Parts that a thread sorts at a time: more of them would leave the processor's cache.
 constexpr std::size_t parts_a_thread = 2;
@@ -37,8 +35,8 @@ SortBudget::SortBudget(std::size_t memory, std::size_t record_bytes, std::size_t
                        (dimension == 2 ? Spread<2>::most_bytes : Spread<3>::most_bytes);
     sampled = std::clamp<std::size_t>(left / 16 / sample_bytes, 256, 16384);
     left -= sampled * sample_bytes;
-    // The spools that wait, at all depths, are at most twice as many as are written at
-    // once: a quarter of the memory.
+    // The waiting spools, at all depths, are at most twice as many as are written at once. They get
+    // a quarter of the memory.
     spools = static_cast<unsigned>(
         std::clamp<std::size_t>(left / 8 / host_bytes_per_spool, 4, most_spools));
     left -= 2 * spools * host_bytes_per_spool;
@@ -76,7 +74,7 @@ template <int D> void ExternalSort<D>::run(Arena<Part<D>> &parts) {
         n += part.spool.size();
         open_spools_ += part.spool.size() > 0;
     }
-    pacer_.begin(ABACUS_PHASE_SORTING, n); // which goes on between what the sink does
+    pacer_.begin(ABACUS_PHASE_SORTING, n); // continues between the sink's steps
     pacer_.poll();
     pacer_.begin(sink_.phase(), n);
     sort_parts(parts);
@@ -93,8 +91,8 @@ template <int D> void ExternalSort<D>::sort_parts(Arena<Part<D>> &parts) {
     }
 }
 
-/// How many parts from this one on are sorted together: as many as threads have use for, or as it
-/// takes to be worth it, if they fit.
+/// How many parts from this one on are sorted together: as many as the threads can use, or as are
+/// needed to be worth it, if they fit into memory.
 template <int D>
 std::size_t ExternalSort<D>::parts_at_once(const Arena<Part<D>> &parts, std::size_t first) const {
     if (host_.threads() == 1) return 1;
@@ -169,8 +167,8 @@ template <int D> Box<D> ExternalSort<D>::survey(Spool &spool) {
     return box;
 }
 
-/// How many parts a slice is cut into. Spools that wait at upper depths leave fewer to
-/// the depths below.
+/// How many parts a slice is cut into. Waiting spools at upper depths leave fewer for the depths
+/// below.
 template <int D>
 unsigned ExternalSort<D>::parts_for(std::uint64_t records, const Slice<D> &slice) const {
     const unsigned rounds = slice.rounds == nullptr ? 0 : slice.rounds->size();
@@ -189,7 +187,7 @@ Arena<Part<D>> ExternalSort<D>::cut(Spool *spools, std::size_t n, const Slice<D>
                                     bool report) {
     std::uint64_t records = 0;
     for (std::size_t i = 0; i < n; ++i) records += spools[i].size();
-    // Of a spool that is read the room is given back at its end.
+    // The room of a spool that is read is freed only at its end.
     if (n == 1) host_.spool_expect(static_cast<double>(records * stride_ * sizeof(std::uint64_t)));
     Distributor<D> distributor(host_, stride_, budget_.piece, slice, sample_,
                                parts_for(records, slice));
@@ -228,7 +226,7 @@ void ExternalSort<D>::emit(const std::uint64_t *records, const std::uint64_t *or
     });
 }
 
-/// Equal points are in order already.
+/// Equal points are already in order.
 template <int D> void ExternalSort<D>::emit_as_is(Spool &spool) {
     spool.rewind(host_);
     while (const std::size_t n = spool.read(host_, records_.data(), budget_.piece, stride_)) {

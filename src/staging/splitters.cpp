@@ -34,7 +34,7 @@ Splitters<D>::Splitters(const Host &host, const Slice<D> &slice, const Sample<D>
         for (; at < places.size() && places[at].round == round; ++at)
             codes.push_back(places[at].code);
         const double share = static_cast<double>(codes.size()) / static_cast<double>(places.size());
-        // A slice of several rounds is cut at least between them.
+        // A slice of several rounds is at least cut between them.
         const unsigned least = rounds_ == 1 ? 2 : 1;
         const bool whole = more_rounds && round == 0;
         cut_round(codes.data(), codes.size(),
@@ -50,7 +50,7 @@ template <int D> void Splitters<D>::list_cells() {
         unsigned part = first_part_[round];
         for (unsigned cell = 0; cell <= cells; ++cell) {
             while (part + 1 < first_part_[round + 1] && cell_of(lower_[part + 1] - 1) < cell)
-                ++part; // it begins at or before the cell's begin
+                ++part; // it begins at or before the beginning of the cell
             *at++ = static_cast<std::uint16_t>(part);
         }
     }

@@ -11,8 +11,7 @@
 namespace abacus {
 
 namespace {
-// Vertices of a mesh for each point that is looked up there; a page has a hundred or
-// more.
+// Vertices of a mesh for each point that is looked up there; a page has a hundred or more.
 constexpr double vertices_a_sample = 32;
 // Threads that distribute may take this share of the memory beside it.
 constexpr std::size_t thread_share = 16;
@@ -154,7 +153,7 @@ template <int D> void Stage<D>::end(abacus_facts &facts) {
         set_domain(facts, spread_.choose());
 }
 
-/// Whether the mesh has vertices where the points are, at least as many as an earlier round
+/// Whether the mesh already has vertices where the points are, at least as many as an earlier round
 /// would have brought.
 template <int D> bool Stage<D>::mesh_stands_in(const abacus_facts &facts, const Domain<D> &domain) {
     if (facts.census.vertices == 0) return false;
@@ -190,7 +189,8 @@ template <int D> void Stage<D>::emit(RecordSink &sink, const abacus_facts &facts
         if (distributor_ && !is_distributed_by(all)) stop_distributing();
         if (distributor_) {
             Arena<Part<D>> parts = finish_distributing();
-            // There may be more rounds now than there were: of those promoted most often.
+            // There may be more rounds now than before: they split the part that is promoted most
+            // often.
             if (in_rounds) parts[0].slice = all;
             if (reversed) // inside a round the order is the same
                 std::stable_sort(parts.begin(), parts.end(),

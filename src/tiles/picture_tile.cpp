@@ -10,19 +10,20 @@ namespace abacus {
 
 namespace {
 
-// Triangles a pixel from which on centres are asked: a place takes as long as some triangles.
+// From this number of triangles a pixel on, the centres of pixels are looked up instead: that takes
+// as long as some triangles each.
 constexpr double most_drawn = 4;
 
 // At the equator.
 constexpr double metres_of_degree = 20037508.342789244 / 180;
 
-/// The centres of the pixels, with those of the margin.
+/// The centres of the pixels, including those of the margin.
 class Samples {
 public:
     Samples(const TileWindow &window, const abacus_drawing &drawing, std::int32_t margin)
         : window_(window), width_(drawing.width), margin_(margin), step_(window.side() / width_) {}
 
-    /// Adds those within a box of the mesh.
+    /// Adds the centres within a box of the mesh.
     void add_to(Places<2> &places, const Box<2> &around) const {
         constexpr std::size_t at_once = 512, words = record_words(2, 0);
         std::array<std::uint64_t, at_once * words> records;
@@ -41,7 +42,7 @@ public:
 
     /// The square of a pixel.
     Patch patch(std::int64_t id) const {
-        constexpr double inset = 1e-6; // all of it is in the pixel, however numbers are rounded
+        constexpr double inset = 1e-6; // the whole square is in the pixel, whatever is rounded
         const double x = static_cast<double>(id % (width_ + 2 * margin_) - margin_);
         const double y = static_cast<double>(id / (width_ + 2 * margin_) - margin_);
         Patch patch;
@@ -56,7 +57,7 @@ public:
     }
 
 private:
-    /// In pixels from the upper left.
+    /// A place in pixels from the upper left corner.
     Point<2> at(double x, double y) const {
         return {window_.box().lower[0] + x * step_, window_.box().upper[1] - y * step_};
     }
@@ -66,7 +67,7 @@ private:
     const double step_; // of a pixel
 };
 
-/// Vertices that have about this distance have such triangles.
+/// A spacing of vertices that gives triangles of this size.
 double spacing_of(const abacus_simplex &simplex, const MapPlane &plane) {
     Point<2> p[3];
     for (int i = 0; i < 3; ++i) p[i] = plane.project({simplex.corner[i][0], simplex.corner[i][1]});

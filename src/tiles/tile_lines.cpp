@@ -22,7 +22,7 @@ bool clip(Point<2> &a, Point<2> &b) {
     if (!(begin < end)) return false;
     const Point<2> from = a, to = b;
     for (int axis = 0; axis < 2; ++axis) {
-        const auto within = [&](double share) { // also where the ends are very far away
+        const auto within = [&](double share) { // even if the ends are very far away
             return std::clamp(std::lerp(from[axis], to[axis], share), box.lower[axis],
                               box.upper[axis]);
         };
@@ -72,7 +72,7 @@ void TileLines::put_into(VectorLayer &layer, int key) {
         });
         layer.begin_lines();
         if (key >= 0) layer.tag(static_cast<std::uint32_t>(key), level->level);
-        // Lines with a beginning first, then those that are closed.
+        // Open lines first, then closed ones.
         for (const bool is_closed : {false, true})
             for (Segment *segment = level; segment != end; ++segment) {
                 host_.poll();

@@ -23,7 +23,7 @@ TileWindow::TileWindow(const abacus_tile &tile, const abacus_facts &facts)
     const double side = tile.is_geographic != 0 ? 360 : tile.side;
     if (!(side > 0 && std::isfinite(lower[0] + side) && std::isfinite(lower[1] + side)))
         throw Error(ABACUS_ERROR_ARGUMENT, "the map of the world has no area, or is not finite");
-    // Sides that tiles share are the same numbers.
+    // Sides shared by tiles are exactly the same numbers.
     const auto place = [&](int axis, std::int64_t n) {
         return lower[axis] + side * (static_cast<double>(n) / static_cast<double>(tiles));
     };

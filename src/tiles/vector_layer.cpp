@@ -23,7 +23,7 @@ enum : protozero::pbf_tag_type {
     value_integer = 6 // sint64
 };
 
-// Commands of a geometry; how often is in the bits above.
+// Commands of a geometry; the bits above are the number of repetitions.
 constexpr std::uint32_t move_to = 1, line_to = 2, close_path = 7;
 
 constexpr std::uint32_t command(std::uint32_t id, std::size_t count) {

@@ -18,7 +18,7 @@ namespace {
 
 // Squares of samples along a side of a tile, with one more on each side.
 constexpr std::uint32_t squares = 64;
-// Segments of contours, at most: with more the interval is doubled.
+// The most segments of contours: if there are more, the interval is doubled.
 constexpr double most_segments = 30000;
 
 constexpr double margin = double{tile_buffer} / tile_extent;
@@ -86,7 +86,7 @@ private:
 
 // ---- What the tile has -------------------------------------------------------------------------
 
-/// All triangles; false if there are too many.
+/// Reads all triangles; false if there are too many.
 bool Maker::read() {
     const BoxRegion<2> region(window_.in_mesh(margin));
     RangeScan<2> pages(host_, facts_, &region);
@@ -121,12 +121,12 @@ bool Maker::read(const PageView<2> &page) {
     return true;
 }
 
-/// Two triangles a square of a grid on which the attribute is known.
+/// Replaces the triangles by two for each square of a grid on which the attribute is known.
 void Maker::sample() {
     triangles_.clear();
     if (kind_.attribute < 0 || !(kind_.contour_interval > 0)) return;
     constexpr std::uint32_t points = squares + 3; // from the corner of the square beside the tile
-    // Samples are at the centres of pixels, so these are half a square away.
+    // Samples are at the centres of pixels, so the box extends half a square further.
     const Box<2> box = window_.wider(1.5 / squares);
     ValueRaster<2> rows =
         tile_samples(host_, facts_, window_, box, points,
@@ -148,7 +148,7 @@ void Maker::sample() {
     }
 }
 
-/// By walking around it. In a mesh that is not Delaunay all pages would have to be read.
+/// Walks around the hull. In a mesh that is not Delaunay, it would have to read all pages.
 void Maker::find_hull() {
     hull_.clear();
     if (!abacus_links_ghosts(facts_.standing)) return;
@@ -167,7 +167,7 @@ void Maker::find_hull() {
 
 // ---- Layers ------------------------------------------------------------------------------------
 
-/// Cuts a polygon at a line of an axis: what is on the side of `sign`.
+/// Cuts a polygon at a line of an axis; keeps the side of `sign`.
 std::size_t cut(const std::array<Point<2>, 8> &polygon, std::size_t size, int axis, double at,
                 double sign, std::array<Point<2>, 8> &result) {
     std::size_t count = 0;
@@ -188,7 +188,7 @@ std::size_t cut(const std::array<Point<2>, 8> &polygon, std::size_t size, int ax
 void Maker::add_triangles(VectorLayer &layer) const {
     const Box<2> box = buffered_tile();
     for (const Triangle &triangle : triangles_) {
-        std::array<Point<2>, 8> polygon, other; // a corner more for each side of the box
+        std::array<Point<2>, 8> polygon, other; // each side of the box adds at most one corner
         std::size_t size = 3;
         for (std::size_t i = 0; i < 3; ++i) polygon[i] = triangle[i].at;
         for (int axis = 0; axis < 2; ++axis) {
@@ -202,10 +202,10 @@ void Maker::add_triangles(VectorLayer &layer) const {
             if (corners == 0 || corner != ring[corners - 1]) ring[corners++] = corner;
         }
         while (corners > 1 && ring[corners - 1] == ring[0]) --corners;
-        std::int64_t area = 0; // y points down: that of a ring that turns clockwise as seen
+        std::int64_t area = 0; // twice that of the reversed ring, which appears clockwise
         for (std::size_t i = 0, j = corners - 1; i < corners; j = i++)
             area += std::int64_t{ring[i].x} * ring[j].y - std::int64_t{ring[j].x} * ring[i].y;
-        if (area <= 0) continue; // what rounding has made flat
+        if (area <= 0) continue; // flat after rounding
         std::reverse(ring.begin(), ring.begin() + corners);
         layer.begin_polygon({ring.data(), corners});
         double sum = 0;
@@ -236,7 +236,7 @@ void Maker::add_vertices(VectorLayer &layer) const {
     }
 }
 
-/// Calls visit(least, greatest) for the triangles that have values.
+/// Calls visit(triangle, least, greatest) for the triangles that have values.
 template <class Visit> void each_range(const Arena<Triangle> &triangles, Visit visit) {
     for (const Triangle &t : triangles) {
         const auto [least, most] = std::minmax({t[0].value, t[1].value, t[2].value});
@@ -245,7 +245,7 @@ template <class Visit> void each_range(const Arena<Triangle> &triangles, Visit v
     }
 }
 
-/// The one that is asked for, times a power of two.
+/// The requested interval, times a power of two.
 double Maker::interval() const {
     double interval = kind_.contour_interval;
     for (;;) {

@@ -1,4 +1,4 @@
-// Damaged pages of attributes that are apart. What is not a checksum's matter is sealed again.
+// Damaged pages of attributes that are apart. Except in tests of checksums, pages are sealed again.
 #include "fuzz/fuzz_mesh.hpp"
 
 using namespace abacus::fuzz;

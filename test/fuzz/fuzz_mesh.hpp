@@ -1,6 +1,6 @@
-// What the fuzz targets share: a small sound mesh of several pages, built once, and all
-// that can be done with a mesh, run on a damaged copy of it. Whatever the damage, every
-// call has to end with a clean status, in bounded time and without a leak.
+// What the fuzz targets share: a small sound mesh of several pages, built once, and all operations
+// on a mesh, run on a damaged copy of it. Whatever the damage, every call must end with a clean
+// status, in bounded time and without a leak.
 #pragma once
 
 #include "mesh/page_format.hpp"
@@ -35,14 +35,14 @@ public:
     abacus_header header{};
     std::size_t cache_bytes = 1 << 20;
 
-    /// Runs a call that returns a status; any status is right but an internal error.
+    /// Runs a call that returns a status; every status except an internal error is right.
     template <class Call> abacus_status run(Call call) {
         abacus_error error{};
         const abacus_status status = call(error);
         if (status == ABACUS_ERROR && error.kind == ABACUS_ERROR_INTERNAL)
             fail(std::string("internal error: ") + error.message + ' ' + error.detail);
         if (status == ABACUS_HOST_ERROR) {
-            // Pages that overlap make a database refuse a second one under one key.
+            // If pages overlap, a database refuses a second one under the same key.
             require(host.violations.size() == 1 &&
                         host.violations[0] == "a second page is put under one key",
                     "a host error without a cause");
@@ -191,7 +191,7 @@ public:
         return faults;
     }
 
-    /// All of it, and a window.
+    /// Draws the whole mesh, and a window.
     void draw() {
         abacus_drawing drawing{};
         drawing.width = drawing.height = 16;
@@ -216,7 +216,7 @@ public:
         });
     }
 
-    /// All of it; what changes pages last.
+    /// Runs all operations; those that change pages come last.
     void do_everything() {
         locate_and_walk();
         locate_places();
@@ -232,8 +232,8 @@ public:
     }
 };
 
-/// What vertices have: some attributes in the pages of simplices, or in pages of their own; or as
-/// many as there can be, so that a point that waits or is repeated takes a page.
+/// Where vertices have their attributes: some in the pages of simplices, or in pages of their own;
+/// or as many as possible, so that a point that waits or is repeated takes a page.
 enum class Carried { in_pages, apart, many };
 
 /// The sound mesh: its attributes make small pages; some points are repeated, some wait.
@@ -249,7 +249,7 @@ inline const Mesh &sound_mesh(int dimension, Carried carried = Carried::in_pages
             std::strcpy(mesh.header.names[i], "height");
         const int points = many ? 10 : 40;
         mesh.stage(4 * points, 1);
-        mesh.stage(2 * points, 1); // once more
+        mesh.stage(2 * points, 1); // a second time
         require(mesh.build() == ABACUS_OK, "the sound mesh cannot be built");
         mesh.stage(points, 2);
         require(mesh.check() == 0, "the sound mesh is not sound");
@@ -274,7 +274,7 @@ inline void with_copy(int dimension, std::size_t cache_bytes,
     act(mesh);
 }
 
-/// Reads numbers off the input; 0 when it is used up.
+/// Reads numbers from the input; 0 when it is used up.
 class Bytes {
 public:
     Bytes(const std::uint8_t *data, std::size_t size) : at_(data), end_(data + size) {}
@@ -293,8 +293,8 @@ private:
     const std::uint8_t *at_, *end_;
 };
 
-/// Changes stored pages as the input says: either one becomes the input's bytes, or
-/// single bytes, 16-bit numbers and words of any of them change.
+/// Changes stored pages as the input says: either the input's bytes replace one page, or single
+/// bytes, 16-bit numbers and words of any page change.
 template <class Pages> void damage(Pages &pages, Bytes &input) {
     const auto page = [&]() -> MemoryHost::Page & {
         const auto n = input.next<std::uint8_t>() % pages.size();
@@ -305,13 +305,13 @@ template <class Pages> void damage(Pages &pages, Bytes &input) {
         const std::size_t at = input.next<std::uint16_t>();
         value = input.next<decltype(value)>();
         if (changed.size < sizeof value) return;
-        // Aligned to its size, as everything in a page is.
+        // Aligned to its size, like everything in a page.
         const std::size_t slot = at % (changed.size / sizeof value);
         std::memcpy(changed.bytes() + slot * sizeof value, &value, sizeof value);
     };
     if (input.next<std::uint8_t>() % 4 == 0) {
         MemoryHost::Page &replaced = page();
-        if (input.rest() == 0) return; // a database has no values of no bytes
+        if (input.rest() == 0) return; // a database has no empty values
         const std::uint64_t location = replaced.location;
         replaced.assign(input.data(), std::min<std::size_t>(input.rest(), ABACUS_MAX_PAGE_BYTES));
         replaced.location = location;
@@ -338,15 +338,15 @@ template <class Pages> void damage(Pages &pages, Bytes &input) {
     }
 }
 
-/// Gives damaged simplex pages the checksums of their bytes: behind a wrong one nothing
-/// would be looked at.
+/// Gives damaged simplex pages the checksums of their bytes: with a wrong one, nothing behind it
+/// would be read.
 template <class Pages> void seal(Pages &pages) {
     for (auto &[key, page] : pages)
         if (page.size >= checksum_bytes) seal_page(page.bytes(), page.size);
 }
 
-/// libFuzzer starts from the files of a folder. The inputs that `seeds` gives go to the
-/// first folder on the command line, if it is empty.
+/// libFuzzer starts from the files of a folder. The inputs from `seeds` go to the first folder on
+/// the command line, if it is empty.
 inline void write_seeds(int argc, char **argv,
                         const std::vector<std::vector<std::uint8_t>> &seeds) {
     for (int i = 1; i < argc; ++i) {
@@ -362,7 +362,7 @@ inline void write_seeds(int argc, char **argv,
     }
 }
 
-/// Inputs for damage(): every page whole, behind `prefix`, and a few single changes.
+/// Inputs for damage(): every page whole, after `prefix`, and a few single changes.
 template <class Pages>
 std::vector<std::vector<std::uint8_t>> page_seeds(const Pages &pages,
                                                   const std::vector<std::uint8_t> &prefix) {

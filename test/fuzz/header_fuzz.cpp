@@ -1,5 +1,5 @@
-// Damaged header rows: decoded or refused, and what is decoded describes a mesh that it
-// need not fit.
+// Damaged header rows: they are decoded or refused, and the pages need not fit the mesh that a
+// decoded one describes.
 #include "fuzz/fuzz_mesh.hpp"
 
 #include <abacus/mesh_header.h>
@@ -35,7 +35,7 @@ extern "C" int LLVMFuzzerInitialize(int *argc, char ***argv) {
 
 namespace {
 
-/// The bytes are also a row of names of a mesh with many attributes.
+/// Also reads the bytes as a row of names of a mesh with many attributes.
 void read_names(const std::uint8_t *data, std::size_t size) {
     abacus_header header{};
     header.facts.form.dimension = 2;
@@ -71,7 +71,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size
     require(abacus_header_decode(bytes.data(), bytes.size(), &again, &error) == ABACUS_OK &&
                 std::memcmp(&header, &again, sizeof header) == 0,
             "a header changes on its way");
-    // Over the pages of either mesh: of its own dimension, and of another.
+    // Over the pages of either mesh: with its own dimension, and with the other.
     for (const int dimension : {2, 3})
         with_copy(dimension, 1 << 20, [&](Mesh &mesh) {
             mesh.header = header;

@@ -1,5 +1,5 @@
-// Damaged pages of labels of simplices and of markers of facets. What is not a checksum's matter is
-// sealed again.
+// Damaged pages of labels of simplices and of markers of facets. Except in tests of checksums,
+// pages are sealed again.
 #include "fuzz/fuzz_mesh.hpp"
 
 #include <cmath>
@@ -8,8 +8,8 @@ using namespace abacus::fuzz;
 
 namespace {
 
-/// Calls take(simplex) for each, or for those with a label in a range, after its labels have been
-/// read.
+/// Calls take(simplex) for each simplex, or for those with a label in a range, after reading its
+/// labels.
 template <class Take>
 void each_simplex(Mesh &mesh, Take take, const abacus_range *range = nullptr) {
     mesh.run([&](abacus_error &error) {
@@ -62,7 +62,7 @@ void label(Mesh &mesh) {
     });
 }
 
-/// Gives a facet of each simplex a marker, or takes it away.
+/// Gives a facet of each simplex a marker, or removes it.
 void mark(Mesh &mesh) {
     std::vector<std::uint64_t> rows;
     each_simplex(mesh, [&](const abacus_simplex &simplex) {

@@ -1,5 +1,5 @@
-// Damaged octant pages: an octree that is read, asked, checked, drawn, changed and extracted,
-// whatever its pages say.
+// Damaged octant pages: an octree is read, asked, checked, drawn, changed and extracted, whatever
+// its pages say.
 #include "fuzz/fuzz_mesh.hpp"
 #include "octree/octree_check.hpp"
 #include "octree/octree_interpolation.hpp"
@@ -43,7 +43,7 @@ template <int D> const Octree<D> &sound_octree() {
     return sound;
 }
 
-/// Whatever the pages say, an act ends well, or with one of the errors of stored bytes.
+/// Whatever the pages say, an act ends well, or with an error about stored bytes.
 template <class Act> void attempt(MemoryHost &host, Act act) {
     try {
         act();
@@ -55,7 +55,7 @@ template <class Act> void attempt(MemoryHost &host, Act act) {
                       error.what());
         fuzz::require(host.violations.empty(), "the host was used wrongly");
     } catch (const HostFailure &) {
-        // Pages that overlap make a database refuse a second one under one key.
+        // If pages overlap, a database refuses a second one under the same key.
         fuzz::require(host.violations.size() == 1 &&
                           host.violations[0] == "a second page is put under one key",
                       "a host error without a cause");
@@ -161,7 +161,7 @@ template <int D> void read_everything(Octree<D> &octree, std::size_t cache_bytes
     attempt(host, [&] { draw(octree); });
 }
 
-/// Each change comes to the pages that the one before has left, and the header goes with them.
+/// Each change works on the pages that the one before has left, with their header.
 template <int D> void change_everything(Octree<D> &octree, std::size_t cache_bytes) {
     MemoryHost &host = *octree.host;
     const Host h = host.host();

@@ -16,7 +16,7 @@ extern "C" int LLVMFuzzerInitialize(int *argc, char ***argv) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t *data, std::size_t size) {
     Bytes input(data, size);
     const auto choice = input.next<std::uint8_t>();
-    for (const bool alone : {false, true}) { // beside a mesh, and as all there is
+    for (const bool alone : {false, true}) { // beside a mesh, and without one
         const auto act = [&](Mesh &mesh) {
             Bytes again = input;
             damage(mesh.host.staged_pages, again);

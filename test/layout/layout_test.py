@@ -14,7 +14,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 MAP = ROOT / "docs/architecture.md"
 ROW = re.compile(r"^\| `(src[\w/]*)` \|[^|]*\|([^|]*)\|$", re.MULTILINE)
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]', re.MULTILINE)
-# Rooms of small files that are alike.
+# Folders with many small files that are alike.
 MANY = {"src/geometry", "src/capi"}
 SOURCES = {".c", ".h", ".cpp", ".hpp"}
 SERVER = re.compile(r"^(postgres|fmgr|miscadmin|pgstat|port|access/|catalog/|commands/|executor/|"

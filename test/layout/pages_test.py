@@ -4,7 +4,7 @@ import re
 import unittest
 
 ROOT = pathlib.Path(__file__).resolve().parents[2]
-# What is not for users, or is made by a program.
+# Pages that are not for users, or that a program makes.
 LONG = ("docs/notebook", "docs/design", "docs/benchmarks.md", "docs/evaluation.md")
 
 

@@ -7,7 +7,7 @@ ROOT = pathlib.Path(__file__).resolve().parents[2]
 TABLE = [line.split() for line in (ROOT / "test/sizes").read_text().splitlines()
          if line and not line.startswith("#")]
 SIZES = ["quick", "usual", "everything"]
-# Kinds of tests, and the suite that runs them: a new kind must get a suite.
+# Kinds of tests, and the suite that runs each: a new kind must get a suite.
 KINDS = {"test/unit": "unit", "test/pgtap": "pgtap", "test/tap": "tap", "test/isolation": "isolation",
          "test/oracle": "oracles", "test/viewer": "viewer", "test/fuzz": "fuzz", "test/suite": "reports",
          "test/layout": "layout", "test/support": "unit"}

@@ -1,8 +1,10 @@
 """Is it English? The worst phrases of docs/style.md are in no document, comment or text that a user sees.
 
 What is looked through: documents but the notebook and the history, all of the code with its comments and messages, the SQL of the
-extensions, the viewer, the clients, the scripts. A phrase that must stay, since a test has to name it, stands in a file that EXCEPT lists.
+extensions, the viewer, the clients, the scripts. Of tests and benchmarks, only comments and docstrings: their strings may be titles and
+expected messages. A phrase that must stay, since a test has to name it, stands in a file that EXCEPT lists.
 """
+import ast
 import pathlib
 import re
 import subprocess
@@ -37,8 +39,11 @@ PHRASES = {
 }
 FOLDERS = ("README.md", "CONTRIBUTING.md", "docs", "src", "include", "client", "scripts", "viewer", "sql/install", "sql/install_lab",
            "sql/install_postgis", "sql/install_postgis_raster", "sql/upgrade", "debian")
+COMMENTS_ONLY = ("test", "bench")
 EXCEPT = ("docs/notebook/", "docs/style.md", "docs/images/", "docs/evaluation/", "docs/benchmarks/", "test/layout/style_test.py")
-KINDS = {".md", ".c", ".h", ".cpp", ".hpp", ".py", ".sh", ".sql", ".js", ".html", ".css", ".pl", ".spec", ""}
+KINDS = {".md", ".c", ".h", ".cpp", ".hpp", ".py", ".sh", ".sql", ".js", ".html", ".css", ".pl", ".pm", ".spec", ""}
+# How a comment begins; in the C family there are also /* … */. A Perl test has SQL within it.
+COMMENT = {".c": "///?", ".h": "///?", ".cpp": "///?", ".hpp": "///?", ".js": "///?", ".sql": "--", ".pl": "#|--", ".pm": "#|--"}
 # Between two words: a space, or the end of a line and the beginning of the next one in a comment.
 GAP = r"(?: |\s*\n[ \t]*(?:(?:///?|[*#]|--|-)[ \t]+)?)"
 
@@ -50,16 +55,38 @@ def hits(text):
             yield text.count("\n", 0, match.start()) + 1, phrase, instead
 
 
+def comments(text, suffix):
+    """Only the comments and docstrings of the text, each on its line, with a full stop in each line between them.
+
+    A comment has spaces around its sign, so the // of an address is not one.
+    """
+    lines = text.split("\n")
+    begin = COMMENT.get(suffix, "#")
+    matches = [re.search(rf"(?:^|\s)(?:{begin})(?:\s.*)?$", line) for line in lines]
+    kept = [match[0] if match else "." for match in matches]
+    blocks = []
+    if begin == "///?":
+        blocks = [(text.count("\n", 0, match.start()), text.count("\n", 0, match.end()) + 1)
+                  for match in re.finditer(r"^[ \t]*/\*.*?\*/", text, re.DOTALL | re.MULTILINE)]
+    elif suffix == ".py":
+        blocks = [(node.body[0].lineno - 1, node.body[0].end_lineno) for node in ast.walk(ast.parse(text))
+                  if isinstance(node, (ast.Module, ast.ClassDef, ast.FunctionDef)) and ast.get_docstring(node)]
+    for first, end in blocks:
+        kept[first:end] = lines[first:end]
+    return "\n".join(kept)
+
+
 def texts():
-    listed = subprocess.run(["git", "ls-files", "--cached", "--others", "--exclude-standard", *FOLDERS], cwd=ROOT,
+    listed = subprocess.run(["git", "ls-files", "--cached", "--others", "--exclude-standard", *FOLDERS, *COMMENTS_ONLY], cwd=ROOT,
                             stdout=subprocess.PIPE, text=True, check=True)
     for name in listed.stdout.splitlines():
         file = ROOT / name
         if file.suffix in KINDS and file.exists() and not name.startswith(EXCEPT):
             try:
-                yield name, file.read_text()
+                text = file.read_text()
             except UnicodeDecodeError:
                 continue
+            yield name, comments(text, file.suffix) if name.split("/")[0] in COMMENTS_ONLY and file.suffix != ".md" else text
 
 
 class Style(unittest.TestCase):
@@ -75,6 +102,13 @@ class Style(unittest.TestCase):
         self.assertEqual([sentence for sentence in wrong if not list(hits(sentence))], [])
         right = ["told apart by their ids", "there is no mesh", "It has no neighbours.", "what is wrong, and what to do about it", "looked for by code"]
         self.assertEqual([sentence for sentence in right if list(hits(sentence))], [])
+
+    def test_only_the_comments_of_a_test_are_read(self):
+        code = 'int a;  // one\n/// two\n/** three\n    four */\nf("// five", "http://six");'
+        self.assertEqual(comments(code, ".cpp").split("\n"), [" // one", "/// two", "/** three", "    four */", "."])
+        code = 'def f():\n    """One."""\n    return "two"  # three'
+        self.assertEqual(comments(code, ".py").split("\n"), [".", '    """One."""', " # three"])
+        self.assertEqual(comments("SELECT 'one' -- two\n-- three", ".sql").split("\n"), [" -- two", "-- three"])
 
     def test_the_page_names_each_phrase(self):
         page = (ROOT / "docs/style.md").read_text()

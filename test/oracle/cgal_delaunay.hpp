@@ -1,5 +1,5 @@
-// CGAL's Delaunay triangulation of the points of a table, as a sorted set of
-// canonical simplices. One specialization a dimension.
+// CGAL's Delaunay triangulation of the points of a table, as a sorted set of canonical simplices,
+// with one specialization for each dimension.
 #pragma once
 
 #include "point_table.hpp"

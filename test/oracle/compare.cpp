@@ -41,7 +41,7 @@ template <int D> std::vector<Simplex<D>> expected(const PointTable<D> &table, co
     return simplices;
 }
 
-/// The mesh as it was exported; faults of single simplices are reported and counted at once.
+/// The exported mesh; faults of single simplices are reported and counted at once.
 template <int D> struct Exported {
     std::vector<Simplex<D>> simplices; // sorted
     std::size_t faults = 0;

@@ -49,12 +49,12 @@ def total(lines, measure):
 
 
 class Contours(unittest.TestCase):
-    # name: what a seed gives, as points and their values
+    # name: a function from a seed to points and their values
     sets = {
         "smooth": lambda random: (points := random.random((3000, 2)) * 50,
                                   12 * numpy.sin(points[:, 0] / 4) * numpy.cos(points[:, 1] / 5) + 0.1 * points[:, 0]),
         "noise": lambda random: (random.random((2000, 2)) * 50, random.normal(size=2000) * 6),
-        # values that are levels, and places in rows
+        # values that are levels, and points in rows
         "steps": lambda random: (numpy.stack(numpy.meshgrid(numpy.arange(40.0), numpy.arange(40.0)), -1).reshape(-1, 2),
                                  random.integers(-3, 4, 1600).astype(float)),
     }
@@ -70,7 +70,7 @@ class Contours(unittest.TestCase):
         ours = contours(name, f"fixed_levels => '{{{','.join(map(str, levels))}}}'{arguments}")
         compared = 0
         for level, lines in zip(theirs.levels, theirs.allsegs):
-            # a line of a single point is none
+            # a line with a single point does not count
             expected = sorted((sorted(distinct(line)) for line in lines if len(distinct(line)) > 1))
             found = [line.path for line in ours if line.value == level]
             self.assertEqual(sorted(sorted(distinct(path)) for path in found), expected)
@@ -113,7 +113,7 @@ class Contours(unittest.TestCase):
             with self.subTest(name):
                 _, values, triangles = self.make(name)
                 levels = numpy.arange(-40.0, 41.0, 2.5)
-                if name != "steps":  # tricontourf shifts levels that are values
+                if name != "steps":  # tricontourf shifts levels that equal values
                     theirs = drawn("tricontourf", triangles, values, levels)
                     expected = {}
                     for level, polygons, kinds in zip(theirs.levels, theirs.allsegs, theirs.allkinds):
@@ -131,9 +131,9 @@ class Contours(unittest.TestCase):
                 for ring in rings:
                     points = [tuple(point) for point in ring.path]
                     self.assertEqual(points[0], points[-1])
-                    self.assertEqual(len(set(points)), len(points) - 1)  # passes no point twice
+                    self.assertEqual(len(set(points)), len(points) - 1)  # no point twice
                     if ring.value not in seen:
-                        self.assertGreater(area(ring.path), 0)  # the first one of a band is an outline
+                        self.assertGreater(area(ring.path), 0)  # the first ring of a band is an outline
                     seen.add(ring.value)
 
     def test_windows_fit_at_their_seams(self):

@@ -15,7 +15,7 @@
 
 namespace abacus::oracle {
 
-/// A file that is read or written through a large buffer; "-" is standard input or output.
+/// A file, read or written through a large buffer; "-" is standard input or output.
 class File {
 public:
     File(const std::string &path, const char *mode)

@@ -12,7 +12,7 @@
 namespace abacus::oracle {
 namespace {
 
-/// `size` points whose coordinates are drawn one by one.
+/// `size` points, drawn coordinate by coordinate.
 template <int D, class Draw> Points<D> each_coordinate(std::size_t size, Draw draw) {
     Points<D> points(size);
     for (auto &p : points)
@@ -24,7 +24,7 @@ template <int D> Points<D> uniform(std::size_t size, Random &random) {
     return each_coordinate<D>(size, [&] { return random.unit(); });
 }
 
-/// The largest integer grid of at most `size` points: every cell is degenerate.
+/// The largest integer grid with at most `size` points: every cell is degenerate.
 template <int D> Points<D> grid(std::size_t size, Random &) {
     const auto nodes = [](std::size_t side) {
         std::size_t product = 1;
@@ -44,7 +44,7 @@ template <int D> Points<D> grid(std::size_t size, Random &) {
     return points;
 }
 
-/// Points of the unit circle or sphere as nearly as doubles can have them.
+/// Points of the unit circle or sphere, as precise as doubles allow.
 template <int D> Points<D> rounded_sphere(std::size_t size, Random &random) {
     Points<D> points(size);
     for (auto &p : points) {
@@ -61,8 +61,8 @@ template <int D> Points<D> rounded_sphere(std::size_t size, Random &random) {
     return points;
 }
 
-/// An exact circle or sphere and, last, its centre, which becomes a vertex of all
-/// simplices and takes them all away if it comes late.
+/// An exact circle or sphere and, last, its centre. It becomes a vertex of all simplices, and
+/// removes them all if it comes late.
 template <int D> Points<D> wheel(std::size_t size, Random &random) {
     Points<D> points = exact_sphere<D>(size - 1, random);
     points.push_back({});
@@ -84,8 +84,8 @@ Points<2> lines(std::size_t size, Random &random) {
     return points;
 }
 
-/// Two lines, half of the points each: every segment of the one makes a tetrahedron
-/// with every segment of the other.
+/// Two lines with half of the points each: every segment of the one makes a tetrahedron with every
+/// segment of the other.
 Points<3> skew_lines(std::size_t size, Random &random) {
     Points<3> points(size);
     for (std::size_t i = 0; i < size; ++i) {
@@ -98,7 +98,7 @@ Points<3> skew_lines(std::size_t size, Random &random) {
     return points;
 }
 
-/// Integer points of one slanted line or plane: no simplex at all.
+/// Integer points on one slanted line or plane: no simplex at all.
 template <int D> Points<D> flat(std::size_t size, Random &random) {
     Points<D> points(size);
     for (auto &p : points) {
@@ -140,7 +140,7 @@ template <int D> Points<D> exponents(std::size_t size, Random &random) {
     });
 }
 
-/// Few places, many points on each, zeros of both signs among them.
+/// Few places with many points each; zeros of both signs.
 template <int D> Points<D> duplicates(std::size_t size, Random &random) {
     const auto side =
         std::max<std::uint64_t>(2, std::uint64_t(std::pow(double(size) / 10, 1.0 / D)));
@@ -150,8 +150,8 @@ template <int D> Points<D> duplicates(std::size_t size, Random &random) {
     });
 }
 
-/// Half of the points close around closed curves, half in Gaussian clusters of different widths:
-/// dense in few places, as shorelines, settlements and scanned surfaces are.
+/// Half of the points lie near closed curves, half in Gaussian clusters of different widths. They
+/// are dense in few places, like shorelines, settlements and scanned surfaces.
 template <int D> Points<D> curves(std::size_t size, Random &random) {
     constexpr double turn = 6.283185307179586;
     const auto normal = [&] { // Box and Muller
@@ -159,7 +159,7 @@ template <int D> Points<D> curves(std::size_t size, Random &random) {
     };
     struct Shape {
         Coordinates<D> centre;
-        double width; // of a cluster; of a curve, which is wound around its centre
+        double width; // of a cluster; or of a curve, which winds around its centre
         std::array<double, D> frequency, phase;
     };
     std::vector<Shape> shapes(40);

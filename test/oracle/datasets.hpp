@@ -12,7 +12,7 @@ namespace abacus::oracle {
 /// Throws std::invalid_argument for a name that dataset_names() doesn't give.
 template <int D> Points<D> dataset(const std::string &name, std::size_t size, std::uint64_t seed);
 
-/// One line a data set: name, dimensions and what it is.
+/// One line for each data set: name, dimensions and description.
 std::string dataset_names();
 
 } // namespace abacus::oracle

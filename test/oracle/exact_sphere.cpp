@@ -5,9 +5,9 @@
 namespace abacus::oracle {
 namespace {
 
-/// A product N of primes 4k + 1 is a sum of two squares in 2^primes ways (times four
-/// for the signs): each prime is a Gaussian integer times its conjugate, and every
-/// choice of one of the two per prime is another point. 17 primes stay below 2^50.
+/// A product N of primes 4k + 1 is a sum of two squares in 2^primes ways (times four for the
+/// signs): each prime is a Gaussian integer times its conjugate, and every choice of one of the two
+/// for each prime gives another point. 17 primes stay below 2^50.
 Points<2> circle(std::size_t size) {
     static constexpr std::pair<std::int64_t, std::int64_t> primes[] = {
         {2, 1}, {3, 2}, {4, 1},  {5, 2},  {6, 1}, {5, 4},  {7, 2},  {6, 5}, {8, 3},
@@ -51,7 +51,7 @@ Points<3> sphere(std::int64_t n) {
     return points;
 }
 
-/// There are about 2 pi sqrt(n) such points, more or less from one n to the next.
+/// There are about 2 pi sqrt(n) such points; the number varies with n.
 Points<3> sphere_of(std::size_t size) {
     auto n = std::int64_t(double(size) * double(size) / 36) | 1;
     Points<3> points = sphere(n);

@@ -1,5 +1,5 @@
-// Integer points that lie on one circle or sphere about the origin exactly: no
-// rounding decides what is cospherical, every in-sphere test among them is 0.
+// Integer points that lie exactly on one circle or sphere about the origin: rounding does not
+// decide which points are cospherical, and every in-sphere test among them is 0.
 #pragma once
 
 #include "coordinates.hpp"

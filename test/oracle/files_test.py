@@ -182,7 +182,7 @@ class Files(unittest.TestCase):
             ring = numpy.array(json.loads((self.at / "p.geojsonl").read_text())["geometry"]["coordinates"][0])
         finally:
             abacus.psql('DROP EXTENSION postgis; DROP SCHEMA "files gis"')
-        numpy.testing.assert_allclose(ring[:, 0], 9, atol=0.01)  # its central meridian
+        numpy.testing.assert_allclose(ring[:, 0], 9, atol=0.01)  # the central meridian
         numpy.testing.assert_allclose(ring[:, 1], 49.65, atol=0.01)
 
     def test_names_that_a_file_would_have_twice(self):
@@ -193,7 +193,7 @@ class Files(unittest.TestCase):
             for name, more in zip(names, (0, 10, 20, 30)):
                 self.assertEqual(sorted(data[name]), [i + more for i in range(9)], name)
         abacus.psql("SELECT abacus_triangulate('files_id', 'VALUES (101, 0, 0, 3), (102, 1, 0, 2), (103, 0, 1, 1)', attributes => '{id}')")
-        data = meshio.read(self.export("files_id", "id.ply")).point_data  # not taken for ids when it is read again
+        data = meshio.read(self.export("files_id", "id.ply")).point_data  # not read as ids later
         self.assertEqual((list(data), sorted(data["id_"])), (["id_"], [1, 2, 3]))
         feature = json.loads(self.export("files_names", "names.geojsonl").read_text().splitlines()[0])["properties"]
         self.assertAlmostEqual(feature["v0__"], feature["v0_"] + 10)
@@ -275,7 +275,7 @@ class Files(unittest.TestCase):
                                                 f"WHERE query LIKE '%{text}%' AND pid <> pg_backend_pid() AND state <> 'idle'")]
 
     def wait(self, condition):
-        until = time.monotonic() + 100  # on a busy machine
+        until = time.monotonic() + 100  # in case the machine is busy
         while not condition() and time.monotonic() < until:
             time.sleep(0.05)
         self.assertTrue(condition())
@@ -283,13 +283,13 @@ class Files(unittest.TestCase):
     def end(self, number, text, *command):
         """Ends a client while its session works; its session is gone soon, and works no longer."""
         client = subprocess.Popen(["/usr/bin/python3", str(CLIENT / command[0]), *map(str, command[1:])], stderr=subprocess.PIPE, stdout=subprocess.PIPE, text=True,
-                                  # the tests may run where a shell or nohup ignores it
+                                  # a shell or nohup around the tests may ignore it
                                   preexec_fn=None if number == signal.SIGKILL else lambda: signal.signal(number, signal.SIG_DFL))
         try:
             self.wait(lambda: self.sessions(text))
             client.send_signal(number)
             _, said = client.communicate(timeout=100)
-            self.wait(lambda: not self.sessions(text))  # which would sleep or wait for longer
+            self.wait(lambda: not self.sessions(text))  # it would sleep or wait longer
         finally:
             client.kill()
         return client.returncode, said

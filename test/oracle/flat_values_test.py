@@ -72,7 +72,7 @@ def needles(random, dimension):
     return points + along[:, None] * numpy.arange(1, dimension + 1)
 
 
-# Of the coordinates, in the value that is linear.
+# Factors of the coordinates in the linear value.
 FACTORS = numpy.array([3.0, -2.0, 0.5])
 
 

@@ -223,7 +223,7 @@ class Import(unittest.TestCase):
         groups = [numpy.array([77, 77]), numpy.array([5, 5]), numpy.array([6])]
         for version, binary in itertools.product(("2.2", "4.0", "4.1"), (False, True)):
             with self.subTest(version=version, binary=binary):
-                # meshio writes groups and cells of several kinds in version 4 only with the entities of a file that it has read
+                # in version 4, meshio writes groups and cells of several kinds only with the entities of a file that it has read
                 several = version == "2.2"
                 mesh = meshio.Mesh(points, cells if several else [("triangle", numpy.concatenate([triangles for _, triangles in cells[1:]]))], point_data={"h": points[:, 0] + 0.5},
                                    cell_data={"gmsh:physical": groups, "gmsh:geometrical": groups} if several else {})
@@ -292,7 +292,7 @@ class Import(unittest.TestCase):
         reader = self.at / "reader"
         reader.mkdir()
         self.addCleanup(sys.path.remove, str(reader))
-        sys.path.insert(0, str(reader))  # a library named meshio that harms
+        sys.path.insert(0, str(reader))  # a harmful library named meshio
         began = time.monotonic()
         for does, said in (("while True: pass", "not read within"), ("bytearray(1 << 50)", "more memory"), ("import os; os.abort()", "status -6"),
                            ("raise SystemExit(1)", "is not a file that meshio can read"), ("1 / 0", "cannot be read: division by zero")):

@@ -14,7 +14,7 @@ class Interpolation(unittest.TestCase):
         random = numpy.random.default_rng(seed)
         points = random.random((500, dimension)) * 100
         heights = numpy.sin(points[:, 0] / 9) + points[:, 1] * 0.1
-        places = random.random((2000, dimension)) * 120 - 10  # some of them outside
+        places = random.random((2000, dimension)) * 120 - 10  # some are outside
         mesh = f"values_{dimension}d"
         abacus.triangulate(mesh, points, height=heights)
         columns = "xyz"[:dimension]

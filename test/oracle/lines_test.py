@@ -41,10 +41,10 @@ class Lines(unittest.TestCase):
         self.assertTrue((numpy.diff(ours[:, 0]) >= 0).all())
         inside = numpy.isfinite(ours[:, 3])
         expected = self.theirs(ours[inside, 1:3])
-        found = numpy.isfinite(expected)  # the hull is on its border for SciPy
+        found = numpy.isfinite(expected)  # SciPy takes the hull for inside
         self.assertGreater(found.sum(), inside.sum() - 3)
         numpy.testing.assert_allclose(ours[inside, 3][found], expected[found], rtol=1e-9, atol=1e-9)
-        # Nothing is lost between two rows: what lies there is linear.
+        # Nothing is lost between two rows: the values there are linear.
         part = numpy.linspace(ours[1, 0] + 1e-6, ours[-1, 0] - 1e-6, 5000)
         x, y, value = (numpy.interp(part, ours[:, 0], ours[:, k]) for k in (1, 2, 3))
         sampled = self.theirs(x, y)
@@ -64,7 +64,7 @@ class Lines(unittest.TestCase):
             ground = self.theirs(ax + part * (bx - ax), ay + part * (by - ay))
             sight = (ground[0] + 3) * (1 - part) + (ground[-1] + 1) * part
             clearance = (sight - ground).min()
-            if abs(clearance) > 0.02:  # samples tell
+            if abs(clearance) > 0.02:  # samples are precise enough
                 compared += 1
                 self.assertEqual(seen, clearance > 0)
         self.assertGreater(compared, 150)

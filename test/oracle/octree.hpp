@@ -1,6 +1,6 @@
-// The corners of a random quadtree or octree. Leaves of very different sizes meet, so
-// corners hang on edges and faces of larger leaves: nearly every point is
-// cospherical, coplanar or collinear with many others.
+// The corners of a random quadtree or octree. Leaves of very different sizes meet, so corners hang
+// on edges and faces of larger leaves: nearly every point is cospherical, coplanar or collinear
+// with many others.
 #pragma once
 
 #include "coordinates.hpp"

@@ -1,4 +1,4 @@
-// Compares octrees with p4est: the same octants are refined in both; then balance has to give the
+// Compares octrees with p4est: the same octants are refined in both; then balancing must give the
 // same leaves, and extraction the same nodes, elements and hanging corners.
 #include "octree/octree_nodes.hpp"
 #include "oracle/p4est.hpp"
@@ -26,7 +26,8 @@ template <int D> Octant<D> octant_of(const typename Foreign<D>::Quadrant *quadra
     return {morton<D>(cell), quadrant->level};
 }
 
-/// Whether p4est is to split a quadrant: it has one of the cells, which are sorted, and is coarser.
+/// Whether p4est should split a quadrant: it contains one of the cells, which are sorted, and is
+/// coarser.
 template <int D>
 int is_split(typename Foreign<D>::Forest *forest, p4est_topidx_t,
              typename Foreign<D>::Quadrant *quadrant) {
@@ -57,12 +58,12 @@ template <int D> void compare_nodes(StoredOctree<D> &octree, typename Foreign<D>
                           [](const auto &node) { return node.anchors == 0; }) ==
                 foreign->num_local_nodes,
             "number of nodes that do not hang");
-    // Nodes that do not hang correspond; where one hangs, p4est names one of its anchors.
+    // Nodes that do not hang correspond; for a hanging node, p4est names one of its anchors.
     std::vector<std::int64_t> ours(static_cast<std::size_t>(foreign->num_local_nodes), -1);
     OctreeElements<D> elements(host, octree.header, octree.memory);
     std::array<std::uint64_t, Octant<D>::children> corners;
     const auto *theirs = foreign->element_nodes;
-    std::vector<std::pair<std::uint64_t, std::int64_t>> hanging; // a node of ours, one of theirs
+    std::vector<std::pair<std::uint64_t, std::int64_t>> hanging; // our node, and one of theirs
     for (; elements.next(corners); theirs += Octant<D>::children)
         for (int i = 0; i < Octant<D>::children; ++i) {
             if (nodes[corners[i]].anchors != 0) {
@@ -103,7 +104,7 @@ template <int D> void compare(const char *name, Cells cells) {
     }
 }
 
-/// Cells along a slanting fault below a basin, fine at the surface: as for waves of an earthquake.
+/// Cells along a slanting fault below a basin, fine at the surface: as for earthquake waves.
 template <int D> Cells quake(std::mt19937_64 &random) {
     Cells cells;
     for (int i = 0; i < (D == 2 ? 3000 : 1500); ++i) {

@@ -1,5 +1,5 @@
-// What p4est calls things in a dimension, for the program that compares octrees with its own, and
-// for the one that times it. The library is Debian's, and GPL: these two programs alone link it.
+// p4est's names in each dimension, for the program that compares octrees with its own, and for the
+// one that times it. The library is Debian's, and GPL: only these two programs link it.
 #pragma once
 
 #include <mpi.h>
@@ -86,7 +86,7 @@ template <> struct Foreign<3> {
     static void destroy(Forest *f) { p8est_destroy(f); }
 };
 
-/// Calls run() between the beginning and the end of MPI and p4est; its result.
+/// Calls run() between the beginning and the end of MPI and p4est; returns its result.
 template <class Run> int with_p4est(int argc, char **argv, Run run) {
     sc_MPI_Init(&argc, &argv);
     sc_init(sc_MPI_COMM_WORLD, 0, 0, nullptr, SC_LP_ERROR);

@@ -51,7 +51,7 @@ public:
     /// Points read, equal ones included.
     std::size_t count() const { return count_; }
     const Points<D> &points() const { return points_; }
-    /// Of all points equal to this one, the id of the first in the file.
+    /// The id of the first point in the file that is equal to this one.
     std::int64_t first_id(std::uint32_t number) const { return first_id_[number]; }
 
     std::uint32_t number_of(std::int64_t id) const {
@@ -66,8 +66,8 @@ private:
     std::unordered_map<std::int64_t, std::uint32_t> number_of_;
 };
 
-/// A simplex as numbers of distinct points, in a canonical order: ascending,
-/// but for the last two, which are exchanged if that keeps the orientation.
+/// A simplex as numbers of distinct points, in a canonical order: ascending, except that the last
+/// two are exchanged if that keeps the orientation.
 template <int D> using Simplex = std::array<std::uint32_t, D + 1>;
 
 template <int D> Simplex<D> canonical(Simplex<D> simplex) {

@@ -1,8 +1,7 @@
-// oracle_points: writes a data set of points (id, x, y[, z]) to standard output,
-// in the order asked for, as PostgreSQL's binary COPY format, as text for COPY, or
-// as raw records (int64, then a double a coordinate, in this machine's byte order)
-// for programs that time CGAL or the core alone. Ids are places in the made order,
-// from 1.
+// oracle_points: writes a data set of points (id, x, y[, z]) to standard output in the given order:
+// in PostgreSQL's binary COPY format, as text for COPY, or as raw records (an int64, then a double
+// for each coordinate, in this machine's byte order) for programs that time CGAL or the core alone.
+// Ids count the points as they were made, from 1.
 #include "copy_format.hpp"
 #include "datasets.hpp"
 #include "random.hpp"
@@ -15,7 +14,7 @@ using namespace abacus::oracle;
 
 namespace {
 
-/// The places of the points in an order; none for that in which they were made.
+/// The positions of the points in an order; empty for the original order.
 template <int D>
 std::vector<std::uint64_t> order_of(const Points<D> &points, const std::string &order,
                                     std::uint64_t seed) {

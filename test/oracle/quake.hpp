@@ -5,7 +5,7 @@
 
 namespace abacus::oracle {
 
-/// The set whose number of points is nearest to `size`, of all whole hundredths of a Hertz.
+/// The set whose number of points is nearest to `size`, among all hundredths of a Hertz.
 Points<3> quake(std::size_t size);
 
 } // namespace abacus::oracle

@@ -1,5 +1,5 @@
-// std::mt19937_64 gives the same numbers everywhere; the distributions of the
-// standard library don't, so these are our own.
+// std::mt19937_64 gives the same numbers everywhere; the distributions of the standard library
+// don't, so these are our own.
 #pragma once
 
 #include <cstdint>

@@ -169,7 +169,7 @@ class Trees(unittest.TestCase):
         edges = numpy.unique(numpy.sort(numpy.concatenate([simplices[:, [i, j]] for i in corners for j in corners if i < j]), axis=1), axis=0)
         lengths = numpy.sqrt(((points[edges[:, 0]] - points[edges[:, 1]]) ** 2).sum(axis=1))
         theirs = minimum_spanning_tree(coo_matrix((lengths, edges.T), shape=(len(points), len(points)))).tocoo()
-        # COPY takes no settings along; a view does not either, but a function does.
+        # COPY does not take settings; nor does a view, but a function does.
         abacus.psql(f"CREATE OR REPLACE FUNCTION tree_edges() RETURNS TABLE (v0 bigint, v1 bigint, length float8) {settings} "
                     "LANGUAGE sql AS $$ SELECT * FROM abacus_spanning_tree('tree') $$")
         ours = abacus.numbers("SELECT v0 - 1, v1 - 1, length FROM tree_edges()")

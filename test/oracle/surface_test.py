@@ -82,7 +82,7 @@ class Surface(unittest.TestCase):
             places, polygons, data = polygons_of(contour)
             numbers, corners, values = self.surface(value)
             self.assertEqual(len(polygons), len(numbers))
-            # The same corners, each with what it carries.
+            # The same corners, each with its values.
             distinct, first = numpy.unique(numbers, return_index=True)
             ours = numpy.column_stack([corners.reshape(-1, 3)[first], values.ravel()[first]])
             theirs = numpy.column_stack([places, data["height"]])
@@ -119,7 +119,7 @@ class Surface(unittest.TestCase):
             found = rows(f"SELECT polygon, \"values\" FROM abacus_section('oracle_solid', '{{{','.join(map(str, through))}}}', '{{{','.join(map(str, normal))}}}', 'height')")
             ours = [vector(row[0], 3) for row in found]
             self.assertEqual(len(ours), len(polygons))
-            # VTK's may turn either way round, and begin anywhere.
+            # VTK's polygons may turn either way, and begin anywhere.
             unordered = lambda all: sorted(tuple(sorted(tuple(numpy.round(p, 8) + 0.0) for p in polygon)) for polygon in all)
             theirs = unordered([places[p] for p in polygons])
             for a, b in zip(unordered(ours), theirs):

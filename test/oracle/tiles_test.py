@@ -91,7 +91,7 @@ class Tiles(unittest.TestCase):
             self.assertLess(abs(y - expected[1]), 0.51 * self.unit)
 
     def test_ids_of_browsers(self):
-        # 2^53 - 1 is the last integer that a double tells from those beside it
+        # 2^53 - 1 is the last integer that a double distinguishes from both its neighbours
         first = 2**53 - 30
         abacus.psql("DROP TABLE IF EXISTS far_ids; SELECT abacus_triangulate('far_ids', 'SELECT " + str(first) +
                     " + row_number() OVER (ORDER BY x, y), x, y, attributes[1] FROM abacus_vertices(''hills'')');"

@@ -121,7 +121,7 @@ class Volume(unittest.TestCase):
                 self.assertEqual(row[3], 0)
                 errors.append([abs(row[0] - math.pi), abs(row[1] - surface), abs(row[2] - volume)])
             ratios = numpy.array(errors[:-1]) / numpy.array(errors[1:])
-            self.assertTrue((ratios > 3).all(), (name, ratios))  # by the square of the distance of points
+            self.assertTrue((ratios > 3).all(), (name, ratios))  # with the square of the distance between points
             self.assertLess(errors[-1][2], 0.01)
 
     def test_bases_at_the_ends(self):

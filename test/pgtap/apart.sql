@@ -1,4 +1,5 @@
--- Attributes apart from the simplices: a mesh with many attributes answers as one with the attribute in question alone.
+-- Attributes apart from the simplices: a mesh with many attributes answers like one with only the attribute
+-- in question.
 BEGIN;
 SELECT no_plan();
 SELECT setseed(0.5);
@@ -48,7 +49,7 @@ CREATE FUNCTION pg_temp.all_queries(what text) RETURNS SETOF text LANGUAGE sql A
     UNION ALL SELECT pg_temp.same($$ SELECT * FROM abacus_raster('%s', ARRAY[0, 0, 0.5], ARRAY[1, 1, 0.5], 20, 20, 'h') $$, what || ': a raster in space', 'solid', 'wide_solid')
 $body$;
 SELECT pg_temp.all_queries('built');
--- pages come in another order, which may round a pixel otherwise; here it does not
+-- pages come in another order, which may round a pixel differently; here it does not
 SELECT pg_temp.same($$ SELECT md5(abacus_draw('%s', 200, attribute => 'h')) $$, 'a picture');
 SELECT pg_temp.same($$ SELECT md5(abacus_draw_section('%s', ARRAY[0.5, 0.5, 0.5], ARRAY[1, 2, 3], 100, attribute => 'h')) AS section, md5(abacus_draw_volume('%1$s', width => 50, attribute => 'h')) AS volume $$, 'pictures in space', 'solid', 'wide_solid');
 SET LOCAL abacus.cache_size = '1MB';
@@ -100,7 +101,7 @@ SELECT pg_temp.all_queries('passed on');
 SELECT pg_temp.change($$ SELECT abacus_insert(%L, format(%L, '(SELECT id, x, y, z, -h AS h FROM more WHERE id %% 3 = 0) again'), on_duplicate => 'replace') $$);
 SELECT pg_temp.sound('after a replacement');
 SELECT pg_temp.all_queries('replaced');
--- most leave: the rest is triangulated anew
+-- most leave: the rest is triangulated again
 SELECT pg_temp.change($$ SELECT abacus_delete(%L, format(%L, '(SELECT * FROM points UNION ALL SELECT * FROM more) gone WHERE id %% 4 > 0')) $$);
 SELECT pg_temp.sound('after most have left');
 SELECT pg_temp.all_queries('left');
@@ -109,7 +110,7 @@ CREATE TABLE far AS SELECT 30000 + id AS id, 50 * random() AS x, 50 * random() A
 SELECT pg_temp.change($$ SELECT abacus_insert(%L, format(%L, 'far')) $$);
 SELECT pg_temp.sound('in another domain');
 SELECT pg_temp.all_queries('far');
--- all leave but two, and all come again
+-- all but two leave, and all come again
 SELECT pg_temp.change($$ SELECT abacus_delete(%L, format(%L, '(SELECT * FROM points UNION ALL SELECT * FROM more UNION ALL SELECT * FROM far) gone WHERE id > 8')) $$);
 SELECT pg_temp.change($$ SELECT abacus_delete(%L, format(%L, 'points WHERE id > 2')) $$);
 SELECT pg_temp.sound('without simplices');
@@ -161,7 +162,7 @@ TRUNCATE followed;
 SELECT is((SELECT count(*) FROM follower WHERE code <> -1), 0::bigint, 'nothing is left of it');
 SELECT is_empty($$ SELECT * FROM abacus_check('follower') $$, 'and sound');
 
--- in batches, and from points that wait
+-- in batches, and from waiting points
 SELECT isnt(abacus_create('slow', 2, ARRAY(SELECT 'a' || i FROM generate_series(1, 40) i)), NULL, 'a mesh to be built in batches');
 SELECT is((SELECT abacus_stage('slow', pg_temp.wide('points', ''))), 4000::bigint, 'points wait');
 SELECT is((SELECT count(*) FROM abacus_vertices('slow') WHERE sequence IS NOT NULL AND cardinality(attributes) = 40), 4000::bigint, 'with their attributes');
@@ -169,7 +170,7 @@ SELECT isnt(abacus_insert('slow', pg_temp.wide('more', '')), NULL, 'and come in 
 SELECT is_empty($$ SELECT * FROM abacus_check('slow') $$, 'sound');
 SELECT is((SELECT count(*) FROM abacus_vertices('slow')), 5800::bigint, 'all of them');
 
--- meshes of format 3 have any number of attributes with the simplices, and are changed as they are
+-- meshes of format 3 have any number of attributes with the simplices, and are changed in that format
 SELECT isnt(abacus_create('old', 2, '{h,a1,a2,a3,a4,a5}'), NULL, 'an empty mesh');
 SELECT is((SELECT get_byte(page::bytea, 6) FROM old WHERE code = -1), 4, 'of format 4');
 UPDATE old SET page = set_byte(page::bytea, 6, 3)::abacus_page WHERE code = -1;

@@ -1,4 +1,4 @@
--- Nearest vertices and windows of larger meshes, against what SQL says of all vertices and simplices.
+-- Nearest vertices and windows of larger meshes, compared with SQL over all vertices and simplices.
 BEGIN;
 SELECT no_plan();
 SELECT setseed(0.5);

@@ -1,4 +1,4 @@
--- Contours of larger meshes: whatever the memory and the order of the points are; with holes; windows of a mesh.
+-- Contours of larger meshes, for any memory and order of points; with holes; windows of a mesh.
 BEGIN;
 SELECT no_plan();
 SELECT setseed(0.5);
@@ -32,18 +32,18 @@ SELECT isnt(abacus_delete('turned', 'SELECT id + 100000, x + 200, y FROM points 
 SELECT results_eq($$ SELECT * FROM abacus_contours('turned', 0.5) $$, 'SELECT id, value, closed, path FROM lines ORDER BY n', 'give the same lines');
 SELECT results_eq($$ SELECT * FROM abacus_contours('turned', 0.5, polygonize => true) $$, 'SELECT id, value, closed, path FROM rings ORDER BY n', 'and bands');
 
--- what lines are
+-- properties of lines
 SELECT is_empty('SELECT FROM lines WHERE closed <> (path[1:2] = path[cardinality(path) - 1:])', 'closed lines end where they begin');
 SELECT is_empty($$ SELECT FROM lines l, LATERAL abacus_interpolate('field', path[3], path[4]) AS found WHERE abs(found - l.value) > 1e-6 $$, 'their points have the value');
 
--- bands cover all of the mesh, once
+-- bands cover the whole mesh, once
 SELECT is((SELECT round(sum(pg_temp.area(path))::numeric, 6) FROM rings), round(pg_temp.mesh_area('field')::numeric, 6), 'bands have the area of the mesh');
 SELECT is((SELECT round(sum(pg_temp.area(path))::numeric, 6) FROM ring_holes), round(pg_temp.mesh_area('holes')::numeric, 6), 'with holes');
 SELECT is_empty('SELECT FROM (SELECT DISTINCT ON (id) path FROM rings ORDER BY id, n) AS first WHERE pg_temp.area(path) <= 0', 'the first ring of a band is an outline');
 SELECT is((SELECT count(DISTINCT value) = max(id) AND bool_and(closed) FROM rings), true, 'a band has one id');
 SELECT is((SELECT count(*) FROM (SELECT DISTINCT ON (id) id FROM abacus_contours('field', 5, polygonize => true)) AS b), (SELECT count(DISTINCT floor(height / 5)) FROM points), 'there is a band for each value');
 
--- windows: bands have their area, and lines of windows side by side end at the same points
+-- windows: bands have their area, and lines of adjacent windows end at the same points
 CREATE TABLE windows AS SELECT i, j, ARRAY[20 * i, 20 * j] AS low, ARRAY[20 * i + 20, 20 * j + 20] AS high FROM generate_series(1, 3) AS i, generate_series(1, 3) AS j;
 SELECT is((SELECT round(sum(pg_temp.area(path))::numeric, 6) FROM windows, abacus_contours('field', 3, polygonize => true, lower => low, upper => high)), 3600::numeric, 'bands of windows have their area');
 CREATE TABLE ends AS SELECT i, value, p.x, p.y FROM windows, abacus_contours('field', 3, lower => low, upper => high),

@@ -40,7 +40,7 @@ SELECT is_procedure('abacus_build', ARRAY['regclass', 'bigint'], 'build in batch
 SELECT is(pg_temp.state('CALL abacus_build(''few3'')'), '2D000', 'build in a transaction');
 SELECT is(pg_temp.state('CALL abacus_build(NULL, 0)'), '2D000', 'whatever the arguments');
 
--- objects that are no mesh, for each function
+-- objects that are not meshes, for each function
 CREATE TEMP TABLE thing (code bigint, part bigint, page bytea);
 CREATE TEMP VIEW looks AS TABLE few3;
 CREATE TEMP SEQUENCE counter;
@@ -59,7 +59,7 @@ CREATE TABLE forged.mesh OF forged.abacus_simplex_page (PRIMARY KEY (code, part)
 INSERT INTO forged.mesh VALUES (-1, 0, '\x00');
 SELECT is(pg_temp.state('SELECT abacus_locate(''forged.mesh'', 1, 2)'), '42809', 'a forged mesh');
 
--- sections of meshes of dimension 3 with few tetrahedra or none, of which NOTICEs tell
+-- sections of meshes of dimension 3 with few tetrahedra or none, which NOTICEs report
 SET LOCAL client_min_messages = warning;
 SELECT is(abacus_triangulate('solid' || n, format('SELECT i, i, i * i, i * i * i FROM generate_series(1, %s) i', n), dimension => 3) > 0,
           n > 3, n || ' points in space')
@@ -78,7 +78,7 @@ FROM (VALUES ($$'few6', '{0,0,0}', '{0,0,1}'$$, '22023'), ($$'solid6', '{}', '{0
              ($$'solid6', '{0,0,0}', '{0,0,1}', lower => '{1,1,1}', upper => '{2,2,2}'$$, '22023')) AS f (arguments, state);
 SELECT is(pg_temp.state('SELECT abacus_draw(''solid6'')'), '22023', 'abacus_draw of a mesh in space');
 
--- a mesh made by hand is one without a header
+-- a mesh made by hand has no header
 CREATE TABLE by_hand OF abacus_simplex_page (PRIMARY KEY (code, part));
 CREATE TABLE by_hand_vertices OF abacus_vertex_page (PRIMARY KEY (first, part));
 SELECT is(pg_temp.state('SELECT abacus_locate(''by_hand'', 1, 2)'), 'XX001', 'no header');
@@ -93,11 +93,11 @@ ALTER TABLE by_hand ALTER page DROP NOT NULL;
 UPDATE by_hand SET page = NULL WHERE code >= 0;
 SELECT is(pg_temp.state('SELECT count(*) FROM abacus_simplices(''by_hand'')'), 'XX001', 'a NULL page');
 
--- an event trigger that drops what is made
+-- an event trigger that drops new objects
 CREATE FUNCTION drop_what_is_made() RETURNS event_trigger LANGUAGE plpgsql AS
     $$ BEGIN EXECUTE 'DROP TABLE IF EXISTS ' || current_setting('edge.dropped'); END $$;
 CREATE EVENT TRIGGER drops ON ddl_command_end WHEN TAG IN ('CREATE TABLE') EXECUTE FUNCTION drop_what_is_made();
-SET LOCAL client_min_messages = warning; -- nothing of the other CREATE TABLE
+SET LOCAL client_min_messages = warning; -- no notices of the other CREATE TABLE
 SET LOCAL edge.dropped = 'doomed';
 SELECT is(pg_temp.state('SELECT abacus_create(''doomed'', 2)'), '42P01', 'a mesh dropped at once');
 SET LOCAL edge.dropped = 'doomed_vertices';

@@ -1,4 +1,4 @@
--- What the planner expects of abacus_simplices and abacus_vertices.
+-- The planner's estimates for abacus_simplices and abacus_vertices.
 BEGIN;
 SELECT plan(16);
 
@@ -9,7 +9,7 @@ BEGIN
     EXECUTE 'EXPLAIN (FORMAT JSON) ' || query INTO plan;
     RETURN plan -> 0 -> 'Plan' ->> 'Plan Rows';
 END $$;
--- The rows expected of a mesh differ from those there are by less than this factor.
+-- The estimated rows of a mesh differ from the actual ones by less than this factor.
 CREATE FUNCTION pg_temp.is_near(set text, mesh regclass, factor float8, what text) RETURNS text LANGUAGE plpgsql AS $$
 DECLARE
     ratio float8;
@@ -18,7 +18,7 @@ BEGIN
         USING pg_temp.expected(format('SELECT * FROM %s(%L)', set, mesh));
     RETURN cmp_ok(greatest(ratio, 1 / ratio), '<', factor, format('%s: %s', what, round(ratio::numeric, 2)));
 END $$;
--- Deterministic, no two alike.
+-- Deterministic, all different.
 CREATE FUNCTION pg_temp.points(first int, last int)
     RETURNS TABLE (id int, x float8, y float8, z float8) LANGUAGE sql AS
     $$ SELECT i, i::bigint * 7919 % 100003 / 1e3, i::bigint * 104729 % 100019 / 1e3, i::bigint * 1299709 % 100043 / 1e3
@@ -32,7 +32,7 @@ SELECT pg_temp.is_near('abacus_vertices', 'flat', 1.5, 'vertices of triangles');
 SELECT pg_temp.is_near('abacus_simplices', 'solid', 1.5, 'tetrahedra');
 SELECT pg_temp.is_near('abacus_vertices', 'solid', 5, 'vertices of tetrahedra');
 
--- Old versions of pages are not counted twice, once somebody has counted rows.
+-- Old versions of pages are not counted twice once rows have been counted.
 SELECT abacus_insert('flat', 'SELECT id, x, y FROM pg_temp.points(40001, 80000)');
 SELECT pg_temp.is_near('abacus_simplices', 'flat', 2.5, 'after an insertion');
 ANALYZE flat;

@@ -1,6 +1,5 @@
--- Every call of the database, and every allocation, that the core makes is
--- made to fail once: each time there is an ERROR of the expected kind, no
--- relation stays open, nothing is half done, and the session works on.
+-- Every call of the database, and every allocation, by the core fails once: each time there is an ERROR of
+-- the expected kind, no relation stays open, no change is incomplete, and the session still works.
 BEGIN;
 SELECT no_plan();
 
@@ -51,7 +50,7 @@ SELECT is_empty($$ SELECT * FROM abacus_check('field') $$, 'the mesh is sound');
 SELECT results_eq($$ SELECT v0, v1, v2 FROM abacus_simplices('field') s ORDER BY least(v0, v1, v2), v0 + v1 + v2 $$,
                   $$ SELECT v0, v1, v2 FROM abacus_simplices('made') s ORDER BY least(v0, v1, v2), v0 + v1 + v2 $$, 'and the same as the other');
 
--- growing a mesh that has pages already
+-- growing a mesh that already has pages
 SELECT is(abacus_stage('field', 'SELECT 10000 + id, x + 0.5, y + 0.5, height FROM points WHERE id <= 500'), 500::bigint, 'more points');
 SELECT pg_temp.inject('growing', $$ SELECT abacus_triangulate('field') $$,
     $$ SELECT (SELECT count(*) FROM abacus_simplices('field')) = (SELECT count(*) FROM abacus_simplices('made')) $$);
@@ -186,7 +185,7 @@ SELECT pg_temp.inject('check holes', $$ SELECT count(*) FROM abacus_check('holes
 CREATE FUNCTION pg_temp.answers() RETURNS bigint LANGUAGE sql AS
     $$ SELECT sum((abacus_locate('field', x + 0.25, y + 0.25)).v0 % 1000003) FROM points $$;
 CREATE TEMP TABLE answer AS SELECT pg_temp.answers();
--- another cache size than the verification's makes the session read the mesh anew
+-- another cache size than the verification's makes the session read the mesh again
 SELECT pg_temp.inject('locate', $$ DO 'BEGIN SET LOCAL abacus.cache_size = ''3MB''; PERFORM pg_temp.answers(); END' $$,
     $$ SELECT pg_temp.answers() = (TABLE answer) $$);
 SET LOCAL work_mem = '64kB';
@@ -236,7 +235,7 @@ SELECT pg_temp.inject('isosurface', $$ SELECT count(*) FROM abacus_isosurface('w
     $$ SELECT NOT EXISTS (SELECT FROM abacus_progress WHERE pid = pg_backend_pid()) $$);
 RESET work_mem;
 
--- nothing but the locks of a transaction that has read and written is held
+-- only the locks of a transaction that has read and written are held
 SELECT is_empty($$ SELECT locktype, mode FROM pg_locks
                    WHERE pid = pg_backend_pid() AND locktype NOT IN ('relation', 'virtualxid', 'transactionid', 'object') $$, 'no other lock');
 SELECT is((SELECT count(*) FROM pg_cursors WHERE name LIKE '<unnamed%'), 0::bigint, 'no portal');

@@ -1,4 +1,4 @@
--- A mesh as foreign tables: rows against those of the functions, estimates, pages, snapshots.
+-- A mesh as foreign tables: rows compared with those of the functions, estimates, pages, snapshots.
 BEGIN;
 SELECT no_plan();
 CREATE FUNCTION pg_temp.points(first int, last int)
@@ -18,7 +18,8 @@ SELECT abacus_triangulate('solid', 'SELECT id, x, y, z, level FROM pg_temp.point
 SELECT abacus_insert('flat', 'SELECT -id, x, y, z, level FROM pg_temp.points(1, 10)'), abacus_stage('flat', 'SELECT 30000, 1, 1, 1, 1');
 SELECT abacus_publish('flat', geometry => false), abacus_publish('solid', geometry => false);
 
--- all rows are those of the functions; a missing value is NaN in "values", since GDAL takes NULL within an array for 0
+-- all rows equal those of the functions; a missing value is NaN in "values", since GDAL reads NULL within an
+-- array as 0
 SELECT set_eq('SELECT code, v0, v1, v2, corners, "values" FROM flat_cells',
     $$ SELECT code, v0, v1, v2, corners, array_replace("values", NULL, 'NaN') FROM abacus_cells('flat') $$, 'triangles');
 SELECT set_eq('SELECT code, v0, v1, v2, v3, corners, "values" FROM solid_cells',
@@ -47,12 +48,12 @@ FROM (SELECT 'flat' AS mesh, code, n FROM (SELECT code, row_number() OVER (ORDER
 SELECT cmp_ok(pg_temp.plan_of(format('SELECT * FROM flat_cells WHERE code = %s', max(code)), 'Mesh Pages Read'), '<=', 2::float8, 'pages of a code') FROM flat_cells;
 SELECT is(sum(n), (SELECT count(*) FROM flat_cells)::numeric, 'slices make the whole')
 FROM generate_series(0, 3) AS i, LATERAL (SELECT count(*) AS n FROM flat_cells WHERE code BETWEEN i * (1::bigint << 60) AND (i + 1) * (1::bigint << 60) - 1) AS c;
--- pages of a window alone are read; after the first rows none
+-- only the pages of a window are read; after the first rows none
 SELECT cmp_ok(pg_temp.plan_of('SELECT * FROM flat_points WHERE x BETWEEN 50 AND 51 AND y BETWEEN 50 AND 51', 'Mesh Pages Read'), '<', 6::float8, 'pages of a window');
 SELECT cmp_ok(pg_temp.plan_of('SELECT * FROM flat_points', 'Mesh Pages Read'), '>', 25::float8, 'all pages');
 SELECT is(pg_temp.plan_of('SELECT * FROM flat_cells LIMIT 3', 'Mesh Pages Read'), 1::float8, 'a limit');
 SELECT is(pg_temp.plan_of('SELECT 1 FROM flat_points WHERE x > 3 AND x < 2', 'Mesh Pages Read'), 0::float8, 'none for nothing');
--- estimates: near what there is, by these factors
+-- estimates: near the actual numbers, by these factors
 CREATE FUNCTION pg_temp.is_near(query text, factor float8) RETURNS text LANGUAGE sql AS $$
     SELECT cmp_ok(greatest(planned / actual, actual / planned), '<', factor, 'estimate of ' || query)
     FROM (SELECT pg_temp.plan_of(query, 'Plan Rows') AS planned, greatest(1, pg_temp.plan_of(query, 'Actual Rows')) AS actual) AS p
@@ -70,7 +71,7 @@ CREATE TEMP TABLE codes AS SELECT code, v0, v1 FROM abacus_simplices('flat') WHE
 ANALYZE codes;
 SELECT set_eq('SELECT code, v0, v1 FROM codes JOIN flat_cells USING (code, v0, v1)', 'TABLE codes', 'a join on codes');
 SELECT cmp_ok(pg_temp.plan_of('SELECT code FROM codes JOIN flat_cells USING (code) LIMIT 1', 'Mesh Pages Read'), '<=', 2::float8, 'its pages');
--- a cursor keeps what it saw while the mesh changes; an error within it is one, and a rollback brings back
+-- a cursor keeps what it saw while the mesh changes; a rollback restores the rows
 SAVEPOINT before;
 DECLARE reader CURSOR FOR SELECT id FROM flat_points;
 FETCH 1 FROM reader;
@@ -93,7 +94,7 @@ END $$;
 SELECT is((SELECT n FROM seen), 20000, 'a cursor does not');
 ROLLBACK TO before;
 SELECT is((SELECT count(*) FROM flat_points), 20000::bigint, 'as before');
--- workers may scan; a temporary mesh they may not
+-- workers may scan, but not a temporary mesh
 SELECT abacus_triangulate('pg_temp.brief', 'SELECT id, x, y FROM pg_temp.points(1, 100)');
 SELECT abacus_publish('pg_temp.brief', geometry => false);
 SELECT is((SELECT count(*) FROM pg_temp.brief_points), 100::bigint, 'a temporary mesh');

@@ -1,4 +1,5 @@
--- A mesh as foreign tables with geometries of PostGIS. A condition IS TRUE does not lead to pages: so it tells which rows there must be.
+-- A mesh as foreign tables with geometries of PostGIS. A condition IS TRUE does not choose pages, so it gives
+-- the expected rows.
 BEGIN;
 SELECT count(*) > 0 AS has_postgis FROM pg_available_extensions WHERE name = 'postgis' \gset
 \if :has_postgis
@@ -18,12 +19,12 @@ BEGIN
     EXECUTE 'EXPLAIN (FORMAT JSON, ANALYZE, TIMING OFF) ' || query INTO plan;
     RETURN jsonb_path_query_first(plan, format('lax $.**."%s"', key)::jsonpath) #>> '{}';
 END $$;
--- Rows of a table that meet a condition are those that it finds among all.
+-- The rows of a table that meet a condition are those found among all rows.
 CREATE FUNCTION pg_temp.finds(source text, condition text, what text) RETURNS text LANGUAGE sql AS $$
     SELECT set_eq(format('SELECT * FROM %s WHERE %s', source, condition), format('SELECT * FROM %s WHERE (%s) IS TRUE', source, condition), what)
 $$;
 
--- A mesh with a slanted side of the hull, along which its triangles are long: their boxes have much in them that they are not.
+-- A mesh with a slanted side of the hull, along which its triangles are long and fill little of their boxes.
 SELECT abacus_triangulate('slanted', 'SELECT id, x, CASE WHEN id % 2 = 0 THEN x * (y / 100) ^ 4 ELSE y END AS y, z AS height, id AS number
     FROM (SELECT id, greatest(x, y) AS x, least(x, y) AS y, z FROM pg_temp.points(1, 6000)) AS p');
 SELECT is(abacus_publish('slanted', srid => 25832, z => 'height')::text, '{slanted_cells,slanted_points}', 'published');
@@ -47,7 +48,7 @@ SELECT cmp_ok(pg_temp.plan_of($$ SELECT * FROM slanted_cells WHERE ST_Intersects
 SELECT cmp_ok((SELECT count(*) FROM slanted_cells WHERE geom && ST_MakeEnvelope(50, 50.5, 50.1, 50.6, 25832)), '>',
     (SELECT count(*) FROM abacus_cells('slanted', ARRAY[50, 50.5], ARRAY[50.1, 50.6])), 'some boxes meet a window that their cells do not');
 
--- What holds only where geometries meet.
+-- Conditions that are true only if geometries meet.
 SELECT pg_temp.finds('slanted_cells', format(condition, 'ST_Buffer(ST_SetSRID(ST_MakePoint(60, 20), 25832), 7)'), 'cells: ' || condition)
 FROM unnest(ARRAY['ST_Intersects(geom, %s)', 'ST_Intersects(%s, geom)', 'ST_Within(geom, %s)', 'ST_Contains(%s, geom)', 'ST_CoveredBy(geom, %s)',
     'ST_Overlaps(geom, %s)', 'ST_Touches(geom, %s)', 'ST_DWithin(geom, %s, 1.5)', 'geom @ %s', '%s ~ geom', 'geom ~ %s', 'geom ~= %s', 'geom &&& %s',
@@ -129,7 +130,7 @@ SELECT throws_ok($$ SELECT abacus_publish('partial', 'a', 'b', srid => 4326) $$,
 SELECT throws_ok($$ SELECT abacus_publish('partial', 'a', 'b', srid => 0) $$, '22023', 'srid is 0, but the mesh has SRID 2154', 'none');
 SELECT throws_ok($$ SELECT abacus_publish('partial', 'a', 'b', geometry => false, srid => 2154) $$, '22023', 'srid and z apply to geometries, but no geometries are published', 'no geometry to have it');
 SELECT lives_ok('ANALYZE slanted_cells, slanted_points, rock_cells', 'ANALYZE');
--- Z is an attribute by a number that never comes again
+-- Z is an attribute with a permanent number
 SELECT abacus_triangulate('heights', 'VALUES (1, 0, 0, 7, 8, 9), (2, 4, 0, 7, 8, 9), (3, 0, 4, 7, 8, 9)', '{a,b,c}');
 SELECT abacus_drop_attribute('heights', 'a');
 SELECT abacus_publish('heights', 'c_cells', 'c_points', z => 'c'), abacus_publish('heights', 'b_cells', 'b_points', z => 'b');

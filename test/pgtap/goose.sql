@@ -26,7 +26,7 @@ SELECT cmp_ok(pg_temp.figure('found_per_search'), '>=', pg_temp.figure('hits_per
 SELECT cmp_ok(pg_temp.figure('boxes_per_search'), '>=', pg_temp.figure('found_per_search'), 'what is found was looked at');
 SELECT is_empty('SELECT name FROM figures WHERE description IS NULL OR value IS NULL', 'all are described');
 
--- A box holds the circle through the corners: some place of it on each side.
+-- A box contains the circle through the corners: on each side, a part of it.
 SELECT is_empty($$
     SELECT * FROM flat WHERE NOT box @> box(polygon(path(ARRAY_TO_STRING(ARRAY[point(x0, y0), point(x1, y1), point(x2, y2)], ',')))) $$,
     'boxes hold the corners');
@@ -41,7 +41,7 @@ SELECT columns_are('solid', '{v0,v1,v2,v3,x0,y0,z0,x1,y1,z1,x2,y2,z2,x3,y3,z3,bo
 SELECT abacus_triangulate('solid_mesh', 'TABLE points', dimension => 3);
 SELECT set_eq('SELECT v0, v1, v2, v3 FROM solid', $$ SELECT v0, v1, v2, v3 FROM abacus_simplices('solid_mesh') $$, 'the tetrahedra of Abacus');
 
--- Nothing else may write the table meanwhile, and none that tries brings the server down.
+-- Nothing else may write the table meanwhile, and an attempt does not crash the server.
 CREATE FUNCTION pg_temp.intrude(box text) RETURNS bigint LANGUAGE plpgsql AS $$
 BEGIN
     EXECUTE format('INSERT INTO intruded VALUES (1, 2, 3, %L, 0, 1, 0, 0, 1, %L)', 'NaN', box);
@@ -54,7 +54,7 @@ SELECT throws_ok($$ SELECT * FROM abacus_goose('dropped', 'SELECT id, x, y FROM 
 CREATE FUNCTION pg_temp.drop_table() RETURNS bigint LANGUAGE plpgsql AS $$ BEGIN DROP TABLE dropped; END $$;
 SELECT throws_ok($$ SELECT * FROM abacus_goose('dropped', 'SELECT id, x, y FROM points WHERE pg_temp.drop_table() IS NULL') $$, '55006', NULL, 'the table is in use');
 
--- In parallel workers, and inside functions, triggers and cursors, it is a function like others.
+-- In parallel workers, functions, triggers and cursors it works like any function.
 CREATE FUNCTION pg_temp.twice() RETURNS bigint LANGUAGE plpgsql AS $$
 BEGIN
     PERFORM * FROM abacus_goose('inner', 'SELECT id, x, y FROM points');

@@ -1,10 +1,10 @@
--- Meshes that grow out of their domain, seen by the session that changes them.
+-- Meshes that outgrow their domain, seen by the session that changes them.
 BEGIN;
 SELECT plan(20);
 
 CREATE FUNCTION pg_temp.figure(mesh regclass, figure text) RETURNS numeric LANGUAGE sql AS
     $$ SELECT value::numeric FROM abacus_stats(mesh) WHERE name = figure $$;
--- Deterministic, no two alike on an axis.
+-- Deterministic, all different on each axis.
 CREATE FUNCTION pg_temp.points(first int, last int, corner float8, edge float8)
     RETURNS TABLE (id int, x float8, y float8, height float8) LANGUAGE sql AS
     $$ SELECT i, corner + edge * (i::bigint * 7919 % 10007) / 10007.0, corner + edge * (i::bigint * 104729 % 10009) / 10009.0, i / 8.0
@@ -35,7 +35,7 @@ END $$;
 SELECT cmp_ok(pg_temp.figure('tracked', 'outside'), '<', 100::numeric, 'row by row: the domain has grown');
 SELECT pg_temp.is_that_of_the_points('row by row');
 
--- A change that is undone, with what the session has in memory.
+-- A change that is rolled back, with the session's data in memory.
 SELECT is((SELECT count(*) FROM points, abacus_locate('tracked', x, y) WHERE code IS NOT NULL), 200::bigint, 'all are found before');
 SAVEPOINT before;
 INSERT INTO points SELECT * FROM pg_temp.points(1001, 1500, -20, 50);
@@ -56,7 +56,7 @@ SELECT abacus_triangulate('tracked');
 SELECT is(pg_temp.figure('tracked', 'outside'), 0::numeric, 'no longer when they are in the mesh');
 SELECT is_empty($$ SELECT * FROM abacus_check('tracked') $$, 'which is sound');
 
--- One far away is left outside.
+-- A distant point is left outside.
 SELECT abacus_insert('tracked', 'VALUES (1, 1e300::float8, -1e300::float8, NULL::float8)');
 SELECT is(pg_temp.figure('tracked', 'outside'), 1::numeric, 'a single point far away');
 SELECT isnt((SELECT code FROM abacus_locate('tracked', 1e300, -1e300)), NULL, 'it is found');

@@ -1,5 +1,5 @@
--- A table of pages grows by many heap pages at a time, where the file system can do that, as all do that
--- PostgreSQL is mostly used with; what is left of them is used next.
+-- A table of pages grows by many heap pages at a time, if the file system can do that, as nearly all that
+-- PostgreSQL is used with can; unused pages are used next.
 BEGIN;
 LOAD 'abacus';
 SELECT plan(7);
@@ -17,8 +17,8 @@ CREATE FUNCTION pg_temp.unused(mesh regclass) RETURNS TABLE (block bigint) LANGU
 SELECT abacus_triangulate('small', pg_temp.points(1, 5000));
 SELECT is_empty($$ SELECT pg_temp.unused('small') $$, 'a small table has no page that is not used');
 
--- Many: a sixteenth of the rows stored is left at most, of which some were stored twice.
-SELECT abacus_triangulate('large', pg_temp.points(1, 160000)); -- other numbers may use the last step up
+-- Many rows: at most a sixteenth of the stored rows is left, and some rows were stored twice.
+SELECT abacus_triangulate('large', pg_temp.points(1, 160000)); -- other numbers may end within the last step
 CREATE TEMP TABLE left_over AS SELECT array_agg(block) AS blocks FROM pg_temp.unused('large');
 SELECT cmp_ok((SELECT cardinality(blocks) FROM left_over), '>', 0, 'the last step was not used up');
 SELECT cmp_ok((SELECT cardinality(blocks) FROM left_over), '<=', (SELECT count(*) FROM large)::int / 12, 'but nearly');

@@ -59,18 +59,19 @@ SELECT is(pg_temp.try(q), s, q) FROM (VALUES
     ('SELECT 1 UNION ALL SELECT 2', '42804'), ('SELECT 1, 2, 3, 4 UNION ALL SELECT 5, 6, 7, 8 ORDER BY 1 DESC LIMIT 1', '1')
 ) AS t (q, s);
 
--- a function that changes something is the user's own affair, but not this mesh
+-- a function with side effects is the user's own business, but it cannot change this mesh
 CREATE FUNCTION pg_temp.restage() RETURNS bigint LANGUAGE sql AS $$ SELECT abacus_stage('field', 'SELECT 1, 2, 3, 4') $$;
 SELECT is(pg_temp.try('SELECT 1, 2, 3, pg_temp.restage()'), '55006', 'staging while staging the same mesh');
 CREATE FUNCTION pg_temp.drop() RETURNS bigint LANGUAGE plpgsql AS $$ BEGIN DROP TABLE field; RETURN 1; END $$;
 SELECT is(pg_temp.try('SELECT 1, 2, 3, pg_temp.drop()'), '55006', 'dropping the mesh while staging it');
--- ... nor the definition of its tables, which the pages are written by
+-- ... nor the definition of its tables, on which writing pages depends
 CREATE FUNCTION pg_temp.run(command text) RETURNS bigint LANGUAGE plpgsql AS $$ BEGIN EXECUTE command; RETURN 1; END $$;
 SELECT is(pg_temp.try(format('SELECT 1, 2, 3, pg_temp.run(%L)', format(command, name))), '55006', format(command, name))
 FROM unnest('{field,field_vertices}'::text[]) AS name,
      unnest('{DROP TABLE %I,TRUNCATE %I,ALTER TABLE %I NOT OF,ALTER TABLE %I NOT OF; ALTER TABLE %1$I ADD COLUMN other text,CREATE INDEX ON %I (part),ALTER TABLE %I SET UNLOGGED}'::text[]) AS command;
 
--- ... and any number of other meshes: each has more of its rows replaced than fit where the first one's are remembered
+-- ... but any number of other meshes: in each, more rows are replaced than fit where those of the first are
+-- remembered
 CREATE FUNCTION pg_temp.points(first int, last int) RETURNS text LANGUAGE sql AS
     $$ SELECT format('SELECT i, i::bigint * 7919 %% 1000003, i::bigint * 104729 %% 1000033 FROM generate_series(%s, %s) AS i', first, last) $$;
 SELECT abacus_triangulate('other_' || n, pg_temp.points(1, 3000)) FROM generate_series(0, 6) AS n;
@@ -80,7 +81,7 @@ SELECT is(abacus_insert('other_0', 'SELECT pg_temp.change_others(), 0.5, 0.5 UNI
           'changing six meshes while changing another');
 SELECT is_empty(format('SELECT * FROM abacus_check(%L)', mesh), mesh || ' is sound') FROM (SELECT 'other_' || n AS mesh FROM generate_series(0, 6) AS n) AS others;
 
--- what was accepted is all there, and nothing else
+-- all accepted rows are there, and nothing else
 SELECT is((SELECT count(*) FROM abacus_vertices('field')),
           (SELECT value::bigint FROM abacus_stats('field') WHERE name = 'points'), 'as many vertices as points');
 SELECT lives_ok($$ SELECT abacus_triangulate('field') $$, 'and they triangulate');

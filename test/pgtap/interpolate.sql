@@ -1,4 +1,5 @@
--- Values between the vertices: of many places as of each, with little memory, beside changes, without a privilege.
+-- Values between the vertices: for many places as for each, with little memory, while the mesh changes,
+-- without a privilege.
 BEGIN;
 SELECT no_plan();
 SELECT setseed(0.5);
@@ -22,24 +23,24 @@ FROM unnest('{linear,natural,nearest}'::text[]) AS method;
 RESET work_mem;
 RESET abacus.cache_size;
 
--- what is linear comes back
+-- linear functions come back
 SELECT cmp_ok((SELECT max(abs(abacus_interpolate('field', x, y, 'plane', method) - (3 * x - 2 * y + 1))) FROM places), '<', 1e-12::float8, method || ' in the plane') FROM unnest('{linear,natural}'::text[]) AS method;
 SELECT cmp_ok((SELECT max(abs(abacus_interpolate('solid', x, y, z, method => method) - (x + y + z))) FROM places), '<', 1e-11::float8, method || ' in space') FROM unnest('{linear,natural}'::text[]) AS method;
 -- the nearest vertex is that of a table, inside and outside
 SELECT is((SELECT count(*) FROM (SELECT * FROM places ORDER BY id LIMIT 200) AS p
            WHERE abacus_interpolate('field', x, y, 'plane', 'nearest', 'nearest') <> (SELECT 3 * x - 2 * y + 1 FROM points ORDER BY point(x, y) <-> point(p.x, p.y) LIMIT 1)), 0::bigint, 'nearest');
--- weights are the sparse matrix of values: any time step by one join
+-- weights are the sparse matrix of values: any time step needs only one join
 CREATE TABLE matrix AS SELECT * FROM abacus_weights('field', 'SELECT id, x, y FROM places', 'natural');
 SELECT results_eq($$ SELECT m.id, round(sum(weight * (3 * v.x - 2 * v.y + 1))::numeric, 9) FROM matrix m JOIN points v ON v.id = vertex GROUP BY m.id ORDER BY 1 $$,
                   $$ SELECT id, plane FROM pg_temp.each('natural', 'null') WHERE plane IS NOT NULL ORDER BY 1 $$, 'values from weights');
 SELECT is((SELECT count(*) FROM matrix WHERE weight <= 0), 0::bigint, 'no weight is 0');
 SELECT bag_eq($$ SELECT vertex, round(weight::numeric, 9) FROM abacus_weights('field', 0.5, 0.5, 'natural') $$,
               $$ SELECT vertex, round(weight::numeric, 9) FROM abacus_weights('field', 'SELECT 1, 0.5, 0.5', 'natural') $$, 'weights of one place');
--- a triangle that is too long is no part of the mesh; its corners are where others have them
+-- a triangle that is too long is not part of the mesh; its corners are, if other triangles have them
 SELECT is((SELECT count(*) FROM points WHERE abacus_interpolate('field', x, y, 'plane', max_edge => 0.03) IS NOT NULL),
           (SELECT count(DISTINCT v) FROM abacus_simplices('field') JOIN points a ON a.id = v0 JOIN points b ON b.id = v1 JOIN points c ON c.id = v2, unnest(ARRAY[v0, v1, v2]) AS v
            WHERE greatest(point(a.x, a.y) <-> point(b.x, b.y), point(b.x, b.y) <-> point(c.x, c.y), point(c.x, c.y) <-> point(a.x, a.y)) <= 0.03), 'max_edge');
--- the mesh stays what it is while the places are read
+-- the mesh does not change while the places are read
 CREATE FUNCTION pg_temp.shrink(n int) RETURNS int LANGUAGE plpgsql AS $$
 BEGIN
     PERFORM abacus_delete('field', 'SELECT id, x, y FROM points WHERE id % 2 = 0');
@@ -53,7 +54,7 @@ SELECT is((SELECT count(*) FROM abacus_weights('field', 'SELECT id, x, y FROM pl
 SELECT is((SELECT count(*) FROM places, abacus_weights('field', x, y) WHERE vertex % 2 = 0), 0::bigint, 'of one place, too');
 ROLLBACK TO changed;
 SELECT cmp_ok((SELECT count(*) FROM places, abacus_weights('field', x, y) WHERE vertex % 2 = 0), '>', 1000::bigint, 'unless it is rolled back');
--- the least and nearly the greatest doubles: linear data comes back by natural neighbours as it does beside 1
+-- near the least and the greatest doubles, natural neighbours reproduce linear functions as they do near 1
 CREATE FUNCTION pg_temp.natural_of(scale float8) RETURNS float8[] LANGUAGE plpgsql AS $$
 DECLARE found float8[];
 BEGIN

@@ -1,4 +1,5 @@
--- The extension abacus_lab: its functions, what it needs and what it takes up; odd arguments.
+-- The extension abacus_lab: its functions, its requirements and the functions that it takes over; odd
+-- arguments.
 BEGIN;
 SELECT no_plan();
 CREATE EXTENSION abacus_lab;
@@ -20,7 +21,7 @@ SELECT is(lab.extversion, abacus.extversion, 'one version, as one module') FROM 
 WHERE lab.extname = 'abacus_lab' AND abacus.extname = 'abacus';
 SELECT throws_ok('DROP EXTENSION abacus', '2BP01', NULL, 'it needs abacus');
 
--- where a function of the name is there already
+-- if a function with the name already exists
 DROP EXTENSION abacus_lab;
 CREATE FUNCTION mine(frequency float8, points_per_wavelength float8 DEFAULT 8,
                      OUT id bigint, OUT x float8, OUT y float8, OUT z float8, OUT vs float8, OUT vp float8, OUT density float8)

@@ -1,4 +1,5 @@
--- Rays, profiles, lines of sight and rasters of larger meshes, against one another and what SQL says; streams, estimates, privileges.
+-- Rays, profiles, lines of sight and rasters of larger meshes, compared with one another and with SQL;
+-- streams, estimates, privileges.
 BEGIN;
 SELECT no_plan();
 SELECT setseed(0.25);
@@ -11,7 +12,7 @@ SELECT isnt(abacus_load('holes', 'TABLE corners', 'TABLE triangles'), NULL, 'one
 CREATE TABLE rays AS SELECT id, 2 * random() - 0.5 AS x, 2 * random() - 0.5 AS y, 2 * random() - 0.5 AS z, random() - 0.5 AS dx, random() - 0.5 AS dy, random() - 0.5 AS dz
 FROM generate_series(1, 40) AS id;
 
--- in the middle of each piece is its simplex
+-- the middle of each piece lies in its simplex
 CREATE FUNCTION pg_temp.wrong(mesh regclass) RETURNS bigint LANGUAGE sql AS
 $$ SELECT count(*) FROM rays, abacus_ray(mesh, ARRAY[x, y], ARRAY[dx, dy]) AS r,
           abacus_locate(mesh, x + (enters + leaves) / 2 * dx, y + (enters + leaves) / 2 * dy) AS l
@@ -21,7 +22,7 @@ SELECT is(pg_temp.wrong('holes'), 0::bigint, '... over holes');
 SELECT is((SELECT count(*) FROM rays, abacus_ray('solid', ARRAY[x, y, z], ARRAY[dx, dy, dz]) AS r,
         abacus_locate('solid', x + (enters + leaves) / 2 * dx, y + (enters + leaves) / 2 * dy, z + (enters + leaves) / 2 * dz) AS l
     WHERE leaves - enters > 1e-9 AND (r.v0, r.v1, r.v2, r.v3) IS DISTINCT FROM (l.v0, l.v1, l.v2, l.v3)), 0::bigint, '... in space');
--- between two pieces is nothing
+-- there is nothing between two pieces
 CREATE FUNCTION pg_temp.gaps(mesh regclass, OUT gaps bigint, OUT wrong bigint) LANGUAGE sql AS
 $$ SELECT count(*) FILTER (WHERE next - leaves > 1e-9),
           count(*) FILTER (WHERE next - leaves > 1e-9 AND NOT abacus_locate(mesh, x + (leaves + next) / 2 * dx, y + (leaves + next) / 2 * dy) IS NULL)
@@ -73,7 +74,7 @@ SELECT cmp_ok(pg_temp.expected($$ SELECT * FROM abacus_ray('field', '{-1, 0.4}',
 SELECT cmp_ok(pg_temp.expected($$ SELECT * FROM abacus_profile('field', '{-1, 0.4, 2, 0.7}') $$) / (SELECT count(*) FROM abacus_ray('field', '{-1, 0.4}', '{1, 0.1}')),
     '>', 0.5::float8, '... nor too few');
 
--- a statement ends soon
+-- a cancelled statement ends soon
 CREATE FUNCTION pg_temp.is_cancelled(query text) RETURNS boolean LANGUAGE plpgsql AS $$
 BEGIN
     EXECUTE query;

@@ -31,7 +31,7 @@ SELECT is(abacus_load('solid_copy', 'TABLE solid', 'TABLE tetrahedra'), (SELECT 
 SELECT set_eq($$ SELECT * FROM pg_temp.simplices('solid_copy') $$, $$ SELECT * FROM pg_temp.simplices('solid_mesh') $$, 'the same tetrahedra');
 SELECT is_empty($$ SELECT * FROM abacus_check('solid_copy') $$, 'sound');
 
--- With so many attributes only some tetrahedra fit into a page, and pages are cut inside of codes.
+-- With this many attributes only some tetrahedra fit into a page, and pages are cut within codes.
 CREATE TABLE heavy AS SELECT solid.*, number.* FROM solid,
     LATERAL (SELECT array_agg(sqrt(id * 100 + i)) AS of FROM generate_series(1, 100) AS i) AS number;
 SELECT is(abacus_load('heavy_copy', 'SELECT id, x, y, z, ' || string_agg(format('of[%s]', i), ', ') || ' FROM heavy', 'TABLE tetrahedra',
@@ -45,7 +45,7 @@ SET LOCAL abacus.cache_size = '1MB';
 SELECT set_eq($$ SELECT * FROM pg_temp.neighbours('heavy_copy') $$, $$ SELECT * FROM pg_temp.neighbours('solid_mesh') $$, 'the same neighbours');
 RESET abacus.cache_size;
 
--- With holes: located wherever a simplex is left, and nowhere else.
+-- With holes: places are located exactly where a simplex is left.
 CREATE TABLE left_over AS SELECT * FROM tetrahedra WHERE (v0 + v1 + v2 + v3) % 3 > 0;
 SELECT is(abacus_load('holes', 'TABLE solid', 'TABLE left_over'), (SELECT count(*) FROM left_over), 'what is left over');
 SELECT is_empty($$ SELECT * FROM abacus_check('holes') $$, 'sound with holes');
@@ -59,7 +59,8 @@ SELECT is_empty($$
                THEN (whole.v0, whole.v1, whole.v2, whole.v3) ELSE (NULL::bigint, NULL::bigint, NULL::bigint, NULL::bigint) END $$,
     'the same simplex as in the whole mesh, or none');
 
--- A cavity, with places in it, around it, at its border and outside, on facets and vertices too: by all ways of asking.
+-- A cavity, with places in it, around it, at its border and outside, also on facets and vertices: with every
+-- query.
 SELECT abacus_triangulate('block', 'SELECT 10000 * x + 100 * y + z, x, y, z FROM generate_series(0, 10) x, generate_series(0, 10) y, generate_series(0, 10) z', dimension => 3);
 CREATE TABLE block_vertex AS SELECT id, x, y, z FROM abacus_vertices('block');
 CREATE TABLE shell AS SELECT v0, v1, v2, v3 FROM abacus_simplices('block') AS s
@@ -95,18 +96,18 @@ INSERT INTO holes_vertices SELECT first + 1, part, page FROM holes_vertices WHER
 SELECT is((SELECT array_agg(ROW(fault, code, part)::text) FROM abacus_check('holes')), ARRAY['(point,1,0)'], 'a page of the list is there twice');
 ROLLBACK TO damage;
 
--- The list is in order also where vertices share a code and have negative coordinates.
+-- The list is in order even if vertices share a code and have negative coordinates.
 SELECT is(abacus_load('outskirts', 'VALUES (1, -2, -2), (2, -1, -2), (3, -2, -1), (4, -1, 5)', 'VALUES (1, 2, 4), (1, 4, 3)',
                       lower => '{0, 0}', upper => '{9, 9}'), 2::bigint, 'all vertices outside of the domain');
 SELECT is_empty($$ SELECT * FROM abacus_check('outskirts') $$, 'sound outside of the domain');
 
--- A given domain that many vertices do not keep to is widened, one that few do not keep to is not.
+-- A given domain is widened if many vertices lie outside, but not for a few.
 SELECT abacus_load('elsewhere', 'TABLE flat', 'SELECT v0, v1, v2 FROM abacus_simplices(''flat_mesh'') WHERE v0 > 9', '{height}', '{5000, 5000}', '{6000, 6000}');
 SELECT cmp_ok((SELECT count(DISTINCT code) FROM abacus_simplices('elsewhere')), '>', 1000::bigint, 'places on the curve, not one');
 SELECT is_empty($$ SELECT * FROM abacus_check('elsewhere') $$, 'sound elsewhere');
 SELECT is((SELECT value FROM abacus_stats('outskirts') WHERE name = 'outside'), 4::float8, 'a few outside are counted');
 
--- Who may not read the source may not load it.
+-- Without the right to read the source, it cannot be loaded.
 CREATE ROLE abacus_reader;
 GRANT CREATE ON SCHEMA public TO abacus_reader;
 SET LOCAL ROLE abacus_reader;

@@ -1,4 +1,4 @@
--- Many places located by one call: the answers of each, whatever the memory, and its edges.
+-- Many places located by one call: the same answers as one by one, for any memory; and special cases.
 BEGIN;
 SELECT no_plan();
 SELECT setseed(0.25);
@@ -6,13 +6,13 @@ CREATE TABLE points AS SELECT id, random() AS x, random() AS y, random() AS z FR
 SELECT isnt(abacus_triangulate('field', 'SELECT id, x, y, z AS height FROM points', '{height}'), NULL, 'a mesh in the plane, with an attribute');
 SELECT isnt(abacus_triangulate('solid', 'SELECT id, x, y, z FROM points LIMIT 4000', dimension => 3), NULL, 'one in space');
 
--- inside, outside, on vertices, on facets; ids come back as they were, repeated ones too
+-- inside, outside, on vertices, on facets; ids come back unchanged, even repeated ones
 CREATE TABLE places AS
     SELECT (id % 7000)::int AS id, 1.2 * random() - 0.1 AS x, 1.2 * random() - 0.1 AS y, 1.2 * random() - 0.1 AS z FROM generate_series(1, 8000) AS id
     UNION ALL SELECT -id, x, y, z FROM points WHERE id % 20 = 0
     UNION ALL SELECT 10000 + a.id, (a.x + b.x) / 2, (a.y + b.y) / 2, (a.z + b.z) / 2 FROM points a JOIN points b ON b.id = a.id + 1 WHERE a.id % 50 = 0
     UNION ALL SELECT 50000, 1e308, -1e308, 0 UNION ALL SELECT 50001, '-0', 0, 0;
--- single calls of one expression: meshes of both dimensions in turns, and rows that are kept
+-- single calls in one expression: meshes of both dimensions by turns, and rows that are kept
 CREATE TABLE located AS
     SELECT id, CASE WHEN id % 3 = 0 THEN 'solid' ELSE 'field' END::regclass AS mesh,
            CASE WHEN id % 3 = 0 THEN abacus_locate('solid', 0.1 + x / 2, 0.1 + y / 2, 0.1 + z / 2) ELSE abacus_locate('field', 0.1 + x / 2, 0.1 + y / 2) END AS simplex
@@ -83,7 +83,7 @@ CREATE TEMP TABLE rest AS SELECT * FROM pg_temp.rest();
 SELECT is((SELECT count(*) FROM rest), 999::bigint, 'a cursor goes on');
 SELECT is_empty($$ TABLE rest EXCEPT TABLE before $$, 'with what it began');
 
--- what cannot be located
+-- places that cannot be located
 SELECT throws_ok($$ SELECT abacus_locate('field', 'SELECT 1, 0.5') $$, '42804', 'source query returns 2 columns, but the mesh takes 3', 'a column is missing');
 SELECT set_eq($$ SELECT * FROM abacus_locate('field', 'SELECT id, x, y, z, NULL, places FROM places') $$,
               $$ SELECT * FROM abacus_locate('field', 'SELECT id, x, y FROM places') $$, 'other columns make no difference');
@@ -95,7 +95,7 @@ SELECT throws_ok($$ SELECT abacus_locate('field', 'SELECT 1, 1 / 0, 0') $$, '220
 SELECT throws_ok($$ SELECT abacus_locate('points', 'SELECT 1, 1, 1') $$, '42809', NULL, 'a table that is no mesh');
 SELECT is((SELECT count(*) FROM abacus_progress WHERE pid = pg_backend_pid()), 0::bigint, 'none of them goes on');
 
--- meshes without simplices, and made elsewhere
+-- meshes without simplices, and meshes made elsewhere
 SELECT isnt(abacus_create('empty', 2), NULL, 'an empty mesh');
 SELECT results_eq($$ SELECT * FROM abacus_locate('empty', 'VALUES (1, 0, 0), (2, 3, 4)') ORDER BY id $$,
                   $$ VALUES (1::bigint, NULL::bigint, NULL::bigint, NULL::bigint, NULL::bigint, NULL::bigint, NULL::float8[]), (2, NULL, NULL, NULL, NULL, NULL, NULL) $$, 'all is outside');
@@ -105,7 +105,7 @@ SELECT isnt(abacus_load('holes', 'TABLE corners', 'TABLE triangles'), NULL, 'a m
 SELECT bag_eq($$ SELECT id, v0, v1, v2 FROM abacus_locate('holes', 'SELECT id, x, y FROM places WHERE id BETWEEN 0 AND 400') $$,
               $$ SELECT p.id::bigint, s.v0, s.v1, s.v2 FROM places p LEFT JOIN LATERAL abacus_locate('holes', x, y) s ON true WHERE id BETWEEN 0 AND 400 $$, 'the answers of each');
 
--- privileges: those of the caller, on the mesh and on what the query reads
+-- privileges: the caller's, on the mesh and on the tables that the query reads
 CREATE ROLE abacus_surveyor;
 GRANT SELECT ON places TO abacus_surveyor;
 SET LOCAL ROLE abacus_surveyor;

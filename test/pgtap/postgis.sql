@@ -1,5 +1,5 @@
--- The extension abacus_postgis: geometries as sources, as places and windows, and as results, compared
--- with what PostGIS itself finds.
+-- The extension abacus_postgis: geometries as sources, as places and windows, and as results, compared with
+-- PostGIS itself.
 SELECT NOT EXISTS (SELECT FROM pg_available_extensions WHERE name = 'postgis') AS absent \gset
 \if :absent
 \echo 1..0 # SKIP PostGIS is not installed
@@ -204,7 +204,7 @@ SELECT is_empty($$ SELECT FROM field, abacus_clip('terrain', field.geom) AS c WH
 SELECT set_eq($$ SELECT v0, v1, v2 FROM field, abacus_clip('terrain', field.geom) AS c WHERE whole $$, $$ SELECT v0, v1, v2 FROM field, cells AS c WHERE ST_Contains(field.geom, c.geom) $$, 'those wholly inside are whole');
 SELECT is_empty($$ SELECT FROM field, abacus_clip('terrain', field.geom, 'height') AS c JOIN cells USING (v0, v1, v2) WHERE whole AND NOT ST_OrderingEquals(c.geom, cells.geom) $$, 'as they are');
 SELECT is_empty($$ SELECT FROM field, abacus_clip('terrain', field.geom, 'height') AS c, ST_DumpPoints(c.geom) AS d WHERE abs(ST_Z(d.geom) - abacus_interpolate('terrain', ST_Force2D(d.geom), outside => 'nearest')) > 1e-6 $$, 'all with the height of the terrain');
--- Places on slanting edges of the hull are rounded: inside, or outside.
+-- Places on slanting edges of the hull are rounded to the inside or the outside.
 SELECT abacus_triangulate('slant', 'VALUES (1, 0, 0, 10), (2, 70, 10, 20), (3, 10, 90, 30)', '{height}');
 SELECT results_eq($$ SELECT count(*) > 200, max(abs(ST_Z(d.geom) - 10 - ST_X(d.geom) * 70 / 620 - ST_Y(d.geom) * 130 / 620)) < 1e-9
     FROM generate_series(0.37, 60, 0.37) AS x, abacus_clip('slant', ST_MakeEnvelope(-1, -1, x, 91), 'height') AS c, ST_DumpPoints(c.geom) AS d $$,
@@ -360,7 +360,7 @@ SELECT throws_ok($$ SELECT abacus_drape('terrain', 'SRID=2154;POINT(1 1)') $$, '
 SELECT throws_ok($$ SELECT abacus_cells_geom('terrain', ST_MakeEnvelope(0, 0, 1, 1, 4326)) $$, '42501', 'permission denied for table terrain', 'nor its SRID');
 RESET ROLE;
 
--- wrong arguments of what is inside
+-- wrong arguments of internal functions
 SELECT throws_ok($$ SELECT _abacus_nest('LINESTRING(0 0, 1 1)') $$, '22023', NULL, 'no rings');
 SELECT throws_ok($$ SELECT _abacus_nest('MULTILINESTRING((0 0, 0 9, 9 0, 0 0))') $$, '22023', 'a hole does not lie in an outline', 'a hole alone');
 SELECT is(ST_AsText(_abacus_nest('MULTILINESTRING((0 0, 9 0, 9 0, 0 9, 0 0, 0 0))')), 'POLYGON((0 0,9 0,0 9,0 0))', 'places that are repeated');

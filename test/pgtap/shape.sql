@@ -1,4 +1,5 @@
--- Voronoi cells, outlines and spanning trees of larger meshes: identities, and what SQL says of all simplices.
+-- Voronoi cells, outlines and spanning trees of larger meshes: identities, and comparison with SQL over all
+-- simplices.
 BEGIN;
 SELECT no_plan();
 SELECT setseed(0.5);
@@ -60,7 +61,7 @@ RESET abacus.cache_size;
 SELECT results_eq($$ SELECT * FROM abacus_spanning_tree('field') $$, 'TABLE tree', 'and the same tree');
 SELECT is((SELECT count(*) FROM tree), (SELECT count(DISTINCT (x, y)) - 1 FROM points), 'one edge fewer than vertices');
 SELECT is((SELECT count(*) FROM tree WHERE v0 > 20 AND v1 > 20 AND NOT EXISTS (SELECT FROM abacus_edges('field') e WHERE (e.v0, e.v1) = (tree.v0, tree.v1))), 0::bigint, 'all of the mesh');
--- the nearest neighbour of each vertex is one in the tree
+-- the nearest neighbour of each vertex is a neighbour in the tree
 SELECT is_empty($$ SELECT p.id FROM (SELECT * FROM points WHERE id BETWEEN 21 AND 420) p, LATERAL (SELECT vertex FROM abacus_nearest('field', x, y, 2) OFFSET 1) n
                    WHERE vertex > 20 AND NOT EXISTS (SELECT FROM tree WHERE (v0, v1) = (least(id, vertex), greatest(id, vertex))) $$, 'nearest neighbours are joined');
 

@@ -1,10 +1,10 @@
--- Split nodes: the interface; queries on random meshes cut by faults against brute force; many
+-- Split nodes: the interface; queries on random meshes cut by faults, compared with brute force; many
 -- attributes; meshes out and in again.
 BEGIN;
 SELECT no_plan();
 
--- A plane of triangles and a cube of tetrahedra, cut along x = 50 up to y = 60, and along y = 50: part of
--- each simplex tells which of its vertices it shares.
+-- A plane of triangles and a cube of tetrahedra, cut along x = 50 up to y = 60, and along y = 50. The part of
+-- each simplex shows which of its vertices it shares.
 CREATE FUNCTION pg_temp.cut(name text, dimension int) RETURNS void LANGUAGE plpgsql AS $$
 BEGIN
     EXECUTE format('CREATE TABLE %I_whole AS SELECT row_number() OVER () AS n, ARRAY[v0, v1, v2, v3] AS ids FROM abacus_simplices(%L)', name, name || '_mesh');
@@ -59,18 +59,18 @@ SELECT bag_eq($$ SELECT ARRAY(SELECT id FROM unnest(ARRAY[n0, n1, n2, n3]) AS n 
 SELECT results_eq(format($$ SELECT vertex, attributes[1] FROM abacus_nearest('plane_split', %s, %s, 12) $$, x, y),
                   format($$ SELECT id, value FROM plane_node ORDER BY (x - %1$s) ^ 2 + (y - %2$s) ^ 2, x, y, id LIMIT 12 $$, x, y), 'nearest at ' || x || ', ' || y)
 FROM (VALUES (50.0, 50.0), (49.0, 10.0), (51.0, 55.0), (0.0, 0.0), (20.5, 50.0)) AS place (x, y);
--- A walk crosses what both simplices name, and nothing else.
+-- A walk crosses only facets that both simplices name.
 SELECT is((SELECT count(n.v0) FROM abacus_simplices('cube_split') AS s, generate_series(0, 3) AS f, abacus_walk('cube_split', s, f) AS n),
           (SELECT sum(sides)::bigint FROM (SELECT count(*) AS sides FROM cube_element, generate_series(1, 4) AS f,
                LATERAL (SELECT array_agg(u ORDER BY u) AS facet FROM unnest(v) WITH ORDINALITY AS c (u, i) WHERE i <> f) AS x GROUP BY facet HAVING count(*) = 2) AS s), 'walks');
--- Values of the side that contains the place.
+-- Values come from the side that contains the place.
 SELECT is_empty($$
     SELECT x, y FROM generate_series(46.25, 54, 1.5) AS x, generate_series(40.25, 70, 2.5) AS y, abacus_locate('plane_split', x, y) AS t
     WHERE abacus_interpolate('plane_split', x, y) NOT BETWEEN sqrt(least(t.v0, t.v1, t.v2)) AND sqrt(greatest(t.v0, t.v1, t.v2))
        OR (t.v0 / 2000000 = 1 OR t.v1 / 2000000 = 1 OR t.v2 / 2000000 = 1) AND y < 50 $$, 'interpolation on the right side');
 SELECT is((SELECT count(*) FROM abacus_locate('cube_split', 'SELECT row_number() OVER (), x, y, z FROM cube_node') AS l WHERE v0 IS NOT NULL), (SELECT count(*) FROM cube_node), 'many places');
 SELECT is((SELECT round(sum(leaves - enters)::numeric, 9) FROM abacus_ray('cube_split', '{-10, 33, 37}', '{1, 0, 0}')), 100::numeric, 'a ray has no gap at a fault');
--- Contours go through levels on each side, and never along the fault to the other one.
+-- Contours cross levels on each side, and never follow the fault to the other side.
 SELECT cmp_ok((SELECT count(*) FROM abacus_contours('plane_split', level_interval => 100)), '>', 2::bigint, 'contours');
 SELECT is_empty($$ SELECT * FROM (SELECT path[i] AS x, path[i + 1] AS y, path[i + 2] AS next_x, path[i + 3] AS next_y
     FROM abacus_contours('plane_split', level_interval => 3.7), generate_series(1, array_length(path, 1) - 2, 2) AS i) AS s
@@ -86,7 +86,7 @@ FROM unnest('{"{1,0,0}", "{-1,0,0}", "{0,1,0}", "{0,0,1}"}'::text[]) AS normal;
 SELECT is((SELECT count(*) FROM abacus_spanning_tree('plane_split')), (SELECT count(*) - 1 FROM plane), 'the spanning tree of the places');
 SELECT lives_ok($$ SELECT abacus_draw_section('cube_split', '{50, 50, 50}', '{0, 1, 0}', 40), abacus_draw('plane_split', attribute => 'value', width => 40) $$, 'pictures');
 
--- Markers: of each facet of a fault two.
+-- Markers: each facet of a fault has two.
 SELECT abacus_mark('cube_split', 'SELECT s.code, s.v0, s.v1, s.v2, s.v3, f, s.v0 % 1000 FROM abacus_simplices(''cube_split'') AS s, generate_series(0, 3) AS f
     WHERE abacus_walk(''cube_split'', s, f) IS NULL');
 SELECT is((SELECT count(DISTINCT (v0, v1, v2)) FROM abacus_facets('cube_split'))::float8, (SELECT value FROM abacus_stats('cube_split') WHERE name = 'hull_facets'), 'a marker for each facet of the border');
@@ -101,7 +101,7 @@ SELECT set_eq($$ SELECT code, v0, v1, v2 FROM abacus_simplices('plane_again') $$
 SELECT throws_ok($$ SELECT abacus_insert('plane_split', 'SELECT 1, 2, 3, 4') $$, '55000', NULL, 'it cannot be changed');
 SELECT throws_ok($$ SELECT abacus_add_attribute('plane_split', 'more') $$, '55000', NULL, 'nor get attributes');
 SELECT throws_ok($$ SELECT abacus_voronoi('plane_split') $$, '55000', NULL, 'nor has it Voronoi cells');
--- A header that counts other split nodes than there are is damaged: the word before the name of the attribute.
+-- If a header counts another number of split nodes, it is damaged: the word before the name of the attribute.
 UPDATE plane_again SET page = abacus_page_from_bytea(set_byte(b, at, get_byte(b, at) - 1))
 FROM (SELECT abacus_page_to_bytea(page) AS b, length(abacus_page_to_bytea(page)) - 72 AS at FROM plane_again WHERE code < 0) AS h WHERE code < 0;
 SELECT isnt_empty($$ SELECT * FROM abacus_check('plane_again') $$, 'the count is checked');

@@ -1,4 +1,4 @@
--- Surfaces through larger meshes in space: what makes a surface, in SQL; settings, rights, estimates.
+-- Surfaces through larger meshes in space: the properties of a surface, in SQL; settings, rights, estimates.
 BEGIN;
 SELECT no_plan();
 SELECT setseed(0.25);
@@ -23,7 +23,7 @@ SELECT cmp_ok((SELECT max(abs(sqrt(x * x + y * y + z * z) - 0.7)) FROM corner), 
 SELECT cmp_ok((SELECT avg(CASE WHEN (x1 * (y2 * z3 - z2 * y3) - y1 * (x2 * z3 - z2 * x3) + z1 * (x2 * y3 - y2 * x3)) < 0 THEN 1 ELSE 0 END)
     FROM (SELECT corners[1][1] AS x1, corners[1][2] AS y1, corners[1][3] AS z1, corners[2][1] AS x2, corners[2][2] AS y2, corners[2][3] AS z2, corners[3][1] AS x3, corners[3][2] AS y3, corners[3][3] AS z3 FROM sphere) AS t), '>', 0.99, 'they are turned to the lower values');
 
--- whatever the settings, and however the mesh came about
+-- for any settings, and however the mesh was made
 SET LOCAL work_mem = '64kB';
 SELECT bag_eq($$ SELECT v0, v1, v2, corners, "values" FROM abacus_isosurface('ball', 0.7, 'radius', 'slope') $$, $$ SELECT v0, v1, v2, corners, "values" FROM sphere $$, 'the same in little memory');
 RESET work_mem;

@@ -1,4 +1,4 @@
--- What temporary files will take is counted where that can be, and refused before any is written.
+-- If the size of temporary files can be estimated, too large ones are refused before any is written.
 BEGIN;
 SELECT plan(22);
 

@@ -1,5 +1,5 @@
--- Meshes of dimension 3 beside those of dimension 2: the same rules for arguments, privileges,
--- transactions and damage, and the same answers from every way of building.
+-- Meshes of dimension 3 compared with dimension 2: the same rules for arguments, privileges, transactions and
+-- damage, and the same answers however they are built.
 BEGIN;
 SELECT no_plan();
 
@@ -11,7 +11,7 @@ EXCEPTION WHEN OTHERS THEN
     RETURN SQLSTATE;
 END $$;
 
--- 0 to 7 points on the moment curve, of which no four are coplanar
+-- 0 to 7 points on the moment curve; no four of them are coplanar
 SELECT is(abacus_triangulate('few' || n, format('SELECT i, i, i * i, i * i * i FROM generate_series(1, %s) i', n), dimension => 3) > 0,
           n >= 4, n || ' points in general position') FROM generate_series(0, 7) n;
 SELECT is_empty(format('SELECT * FROM abacus_check(''few%s'')', n), n || ' points checked') FROM generate_series(0, 7) n;
@@ -96,7 +96,7 @@ ROLLBACK TO before;
 SELECT is(abacus_locate('in_steps', 30, 30, 30), NULL, 'and taken back');
 SELECT is(pg_temp.content('in_steps'), pg_temp.content('at_once'), 'as if it had never been');
 
--- privileges and row-level security do not know of dimensions
+-- privileges and row-level security do not depend on the dimension
 CREATE ROLE abacus_solid_reader;
 SELECT is(pg_temp.state('SET LOCAL ROLE abacus_solid_reader; SELECT ' || f), s, f || ' without a privilege') FROM (VALUES
     ('abacus_locate(''in_steps'', 1, 1, 1)', '42501'), ('count(*) FROM abacus_simplices(''in_steps'')', '42501'),

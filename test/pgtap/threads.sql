@@ -1,5 +1,5 @@
--- Threads end with the statement, whatever ends it: an error of the database, a cancel, a timeout. Nothing is
--- half done, nothing stays behind, and the session works on.
+-- Threads end with the statement, whatever ends it: an error of the database, a cancel, a timeout. No change
+-- is incomplete, nothing is left behind, and the session still works.
 BEGIN;
 SELECT no_plan();
 SET LOCAL client_min_messages = warning;
@@ -10,7 +10,7 @@ SET LOCAL abacus.threads = 3;
 SET LOCAL abacus.tiny_intervals = on;
 SET LOCAL abacus.cache_size = '1MB';
 
--- threads of this process, once those that have just ended are gone
+-- threads of this process, after those that have just ended are gone
 CREATE FUNCTION pg_temp.threads() RETURNS bigint LANGUAGE plpgsql AS $$
 DECLARE n bigint;
 BEGIN
@@ -70,7 +70,7 @@ SELECT is(pg_temp.fails($$ SELECT abacus_triangulate('timed', 'TABLE many') $$, 
 SET LOCAL statement_timeout = 0;
 SELECT is(pg_temp.threads(), 1::bigint, 'no thread is left');
 
--- again and again: memory is given back
+-- repeatedly: memory is freed
 CREATE FUNCTION pg_temp.resident() RETURNS bigint LANGUAGE sql AS
     $$ SELECT (split_part(s, ' ', 2)::bigint - split_part(s, ' ', 3)::bigint) * 4
        FROM pg_read_file('/proc/self/statm', 0, 100) s $$; -- private memory, kB

@@ -1,4 +1,4 @@
--- Checks and locations of many places by several threads: the same answers, and a clean end of whatever ends them.
+-- Several threads check meshes and locate many places: the same answers, and a clean end whatever ends them.
 BEGIN;
 SELECT no_plan();
 SET LOCAL client_min_messages = warning;
@@ -12,7 +12,7 @@ SELECT abacus_triangulate('space', 'SELECT id, x, y, z FROM points WHERE id <= 1
 SET LOCAL abacus.cache_size = '1MB';
 SET LOCAL abacus.tiny_intervals = on;
 
--- threads of this process, once those that have just ended are gone
+-- threads of this process, after those that have just ended are gone
 CREATE FUNCTION pg_temp.threads() RETURNS bigint LANGUAGE plpgsql AS $$
 DECLARE n bigint;
 BEGIN
@@ -24,7 +24,7 @@ BEGIN
     RETURN n;
 END $$;
 
--- what a query gives, in its order, by so many threads
+-- the rows of a query in order, with this many threads
 CREATE FUNCTION pg_temp.answer(query text, n int) RETURNS text[] LANGUAGE plpgsql AS $$
 DECLARE answer text[];
 BEGIN
@@ -62,7 +62,7 @@ DELETE FROM space WHERE code = (SELECT percentile_disc(0.4) WITHIN GROUP (ORDER 
 SELECT pg_temp.same($$ SELECT * FROM abacus_check('space') $$, 'check without a page');
 ROLLBACK TO sound;
 
--- whatever call of the database fails
+-- any call of the database may fail
 SET LOCAL abacus.threads = 3;
 CREATE FUNCTION pg_temp.inject(query text, expected text[]) RETURNS SETOF text LANGUAGE plpgsql AS $$
 DECLARE
@@ -109,12 +109,12 @@ SELECT is(pg_temp.fails($$ SELECT * FROM abacus_locate('wide', 'SELECT i, i, i F
 SET LOCAL statement_timeout = 0;
 SELECT is(pg_temp.threads(), 1::bigint, 'no thread is left');
 
--- what builds count
+-- counts of builds
 SELECT is((SELECT sum(value) FROM abacus_stats('wide') WHERE name IN ('passes', 'put_off', 'waited_ns')), 0::float8, 'one thread has no passes');
 SELECT abacus_triangulate('shared', 'SELECT id, x, y FROM points');
 SELECT ok((SELECT bool_and(value > 0) FROM abacus_stats('shared') WHERE name IN ('passes', 'put_off', 'waited_ns')), 'several have');
 
--- again and again: memory is given back
+-- repeatedly: memory is freed
 CREATE FUNCTION pg_temp.resident() RETURNS bigint LANGUAGE sql AS
     $$ SELECT (split_part(s, ' ', 2)::bigint - split_part(s, ' ', 3)::bigint) * 4
        FROM pg_read_file('/proc/self/statm', 0, 100) s $$; -- private memory, kB

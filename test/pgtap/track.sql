@@ -13,7 +13,7 @@ BEGIN
     RETURN n;
 END $$;
 
--- bound by a dependency, or found by name after a restore, which has none
+-- bound by a dependency, or found by name after a restore, which carries no dependency
 CREATE TABLE wells (id bigint, x float8, y float8);
 SELECT abacus_create('field', 2);
 SELECT is(abacus_track('field', 'wells'), 0::bigint, 'an empty table is tracked');
@@ -87,8 +87,8 @@ CREATE TRIGGER twin AFTER INSERT ON loose FOR EACH ROW EXECUTE FUNCTION twin();
 INSERT INTO loose SELECT i, i * 0.77, i * i % 13 FROM generate_series(1, 40) i;
 SELECT is(differences('loose_mesh', 'TABLE loose'), 0::bigint, 'triggers that change rows and add some');
 SELECT is(count(*), 80::bigint, '... all of them') FROM abacus_vertices('loose_mesh');
--- ... unless they change the rows of their own statement again, afterwards: a row's point is
--- looked for by its id, so that no other row at the place loses its own
+-- ... unless they change the rows of their own statement again, afterwards: a row's point is looked up by its
+-- id, so that no other row at the place loses its own
 CREATE TABLE nudged (id int, x float8, y float8);
 SELECT abacus_create('nudged_mesh', 2);
 SELECT abacus_track('nudged_mesh', 'nudged');
@@ -115,7 +115,7 @@ SELECT throws_ok($$ SELECT abacus_track('loose_mesh', 'loose') $$, '55000', NULL
 SELECT is(abacus_track('loose_mesh', 'loose', synchronize => true), 71::bigint, '... and in step again');
 SELECT is(differences('loose_mesh', 'TABLE loose'), 0::bigint, '... exactly');
 
--- ... as they fired before, but for those that were disabled
+-- ... they fire as before, except for disabled ones
 CREATE FUNCTION firing() RETURNS text LANGUAGE sql AS $$
     SELECT string_agg(tgenabled::text, '' ORDER BY tgtype) FROM pg_trigger WHERE tgrelid = 'loose'::regclass AND tgname LIKE 'abacus%'
 $$;
@@ -130,7 +130,7 @@ ALTER TABLE loose DISABLE TRIGGER USER;
 SELECT is(abacus_track('loose_mesh', 'loose'), 71::bigint, '... and once more, disabled');
 SELECT is(firing(), 'OOOO', '... which they are no longer');
 
--- ... also where points wait
+-- ... even if points wait
 SELECT abacus_create('few', 2);
 SELECT abacus_insert('few', 'VALUES (2, 1, 0), (3, 0, 1)');
 CREATE TABLE fewer (id int, x float8, y float8);
@@ -138,7 +138,7 @@ INSERT INTO fewer VALUES (1, 0, 0), (2, 4, 0), (3, 0, 4), (4, 5, 4);
 SELECT is(abacus_track('few', 'fewer', synchronize => true), 4::bigint, 'in step, where points wait');
 SELECT is(differences('few', 'TABLE fewer'), 0::bigint, '... exactly');
 
--- table and mesh of one persistence: a crash would empty one of two
+-- table and mesh must have the same persistence: a crash would empty only one of the two
 CREATE TABLE kept (id int, x float8, y float8);
 CREATE UNLOGGED TABLE lost (LIKE kept);
 CREATE TEMP TABLE brief (LIKE kept) ON COMMIT DROP;
@@ -152,7 +152,7 @@ SELECT lives_ok($$ SELECT abacus_track('lost_mesh', 'lost') $$, 'both unlogged')
 SELECT lives_ok($$ SELECT abacus_track('kept_mesh', 'brief') $$, 'a temporary table');
 SELECT abacus_untrack('lost_mesh', 'lost'), abacus_untrack('kept_mesh', 'brief');
 
--- types are looked at whether the mesh has points or not
+-- types are checked whether the mesh has points or not
 CREATE TABLE typed (id int, "numeric id" numeric, x float8, y float8, "text" text);
 INSERT INTO typed VALUES (1, 1, 0, 0, '0');
 SELECT throws_ok($$ SELECT abacus_track('kept_mesh', 'typed', '{numeric id,x,y}') $$, '42804', NULL, 'a numeric id, empty mesh');
@@ -162,8 +162,8 @@ SELECT throws_ok($$ SELECT abacus_track('kept_mesh', 'typed', '{numeric id,x,y}'
 SELECT throws_ok($$ SELECT abacus_track('kept_mesh', 'typed', '{id,text,y}') $$, '42804', NULL, '... and text');
 SELECT is(abacus_track('kept_mesh', 'typed'), 1::bigint, 'the right ones');
 
--- numerics that no double holds, read again as they were read: at half the least double, at the
--- greatest with half a step more, and around them
+-- numerics that no double can hold, read back as before: at half the least double, at the greatest plus half
+-- a step, and around them
 CREATE DOMAIN exact AS numeric;
 CREATE TABLE precise (id int, x numeric, y exact, height exact);
 SELECT abacus_create('precise_mesh', 2, '{height}');
@@ -203,7 +203,7 @@ FROM (SELECT tgtype, array_agg(split_part(encode(tgargs, 'escape'), '\000', 1) O
       WHERE tgrelid = 'shared'::regclass GROUP BY tgtype) AS events (event, meshes);
 DROP TABLE terrain, terrain_fine, terrain_a;
 
--- a point is told by its attributes as well: what the mesh has missed does not go unnoticed
+-- a point is identified by its attributes as well, so a change that the mesh has missed is noticed
 SELECT abacus_create('tellers', 2, '{h}');
 SELECT abacus_track('tellers', 'shared');
 INSERT INTO shared VALUES (1, 0, 0, 1), (1, 0, 0, 2), (1, 0, 0, NULL), (2, 4, 0, '-0'), (3, 0, 4, 'NaN'), (4, 0, 0, 3);
@@ -238,7 +238,7 @@ SELECT throws_ok($$ DELETE FROM shared WHERE id = 2 $$, '55000', NULL, 'a column
 SELECT abacus_track('tellers', 'shared', synchronize => true);
 SELECT lives_ok($$ DELETE FROM shared WHERE id = 2 $$, '... in step again');
 
--- what is computed only when it is read is in no row that triggers get
+-- columns that are computed only when they are read are not in the rows that triggers get
 CREATE FUNCTION pg_temp.make_virtual(name text) RETURNS void LANGUAGE plpgsql AS $$
 BEGIN
     IF current_setting('server_version_num')::int >= 180000 THEN
@@ -265,7 +265,7 @@ SELECT is((SELECT count(*) FROM abacus_vertices('computed_mesh')) + (SELECT coun
 SELECT lives_ok($$ SELECT abacus_untrack('computed_mesh', 'computed') $$, '... untracked');
 SELECT lives_ok('DELETE FROM computed WHERE id = 3', '... the table is written');
 
--- event triggers may interfere with the making of triggers
+-- event triggers may interfere with creating triggers
 CREATE FUNCTION drop_it() RETURNS event_trigger LANGUAGE plpgsql AS $$ BEGIN EXECUTE 'DROP TABLE IF EXISTS ' || current_setting('test.drop'); END $$;
 CREATE EVENT TRIGGER drops ON ddl_command_end WHEN TAG IN ('CREATE TRIGGER', 'DROP TRIGGER') EXECUTE FUNCTION drop_it();
 SET LOCAL test.drop = 'tellers';

@@ -1,5 +1,5 @@
--- abacus_track: whose rights its triggers have, and which triggers are a mesh's, when they are
--- bound to it (pg_depend) and when they only name it: made by hand, or restored from a dump.
+-- abacus_track: whose rights its triggers have, and which triggers belong to a mesh, when they are bound to
+-- it (pg_depend) and when they only name it: made by hand, or restored from a dump.
 BEGIN;
 SELECT plan(56);
 
@@ -9,7 +9,7 @@ CREATE SCHEMA own AUTHORIZATION pgtap_owner;
 CREATE SCHEMA guests AUTHORIZATION pgtap_guest;
 GRANT USAGE ON SCHEMA own TO pgtap_guest;
 
--- what a restore leaves: triggers (but for `keep` of them) and, if wanted, vertex tables unbound
+-- the state after a restore: triggers (except for `keep` of them) and, if wanted, vertex tables unbound
 CREATE FUNCTION public.forget(mesh regclass, vertices boolean DEFAULT false, keep int DEFAULT 0) RETURNS void
 LANGUAGE sql SECURITY DEFINER AS $$
     DELETE FROM pg_depend WHERE ctid IN (
@@ -39,8 +39,7 @@ SELECT abacus_track('own.field', 'own.wells');
 CREATE TABLE own.notes (id int, x float8, y float8);
 GRANT ALL ON own.notes, own.wells TO pgtap_guest;
 
--- a trigger made by hand has the rights of the user who fires it, and reaches nothing by those of
--- the owner
+-- a trigger made by hand has the rights of the user who fires it, and uses no rights of the owner
 SET ROLE pgtap_guest;
 CREATE TRIGGER a AFTER INSERT ON own.notes REFERENCING NEW TABLE AS n FOR EACH STATEMENT
     EXECUTE FUNCTION abacus_tracked('field', '2', 'id', 'x', 'y');
@@ -64,7 +63,7 @@ CREATE OR REPLACE TRIGGER abacus_track_insert_field AFTER INSERT ON own.wells RE
     FOR EACH STATEMENT EXECUTE FUNCTION abacus_tracked('field', '2', 'id', 'y', 'x');
 SELECT is(bound('own.field'), 3::bigint, 'a trigger that replaces a bound one');
 SELECT throws_ok('INSERT INTO own.wells VALUES (9, 9, 8)', '42501', NULL, '... has no rights but the writer''s');
--- a trigger depends on its own table; a mesh's own is no reason to change it
+-- a trigger depends on its own table; on a mesh's table this does not bind it to the mesh
 RESET ROLE;
 SELECT abacus_create('own.other', 2);
 GRANT ALL ON own.other TO pgtap_guest;
@@ -126,7 +125,7 @@ SELECT is(bound('own.field'), 4::bigint, '... or the first write binds those tha
 DROP TABLE own.field;
 SELECT is(triggers('own.wells'), 0::bigint, 'the mesh takes them all with it');
 
--- a restored mesh of somebody else: the writer's rights are enough, and bind nothing
+-- a restored mesh of another owner: the writer's rights are enough, and bind nothing
 SELECT abacus_create('own.field', 2);
 GRANT ALL ON own.field, own.field_vertices TO pgtap_guest;
 SET ROLE pgtap_guest;
@@ -148,7 +147,7 @@ SELECT is(bound('own.field'), 0::bigint, '... for all of its triggers');
 SELECT is(abacus_delete('own.field', 'VALUES (2, 1, 0)'), 1::bigint, '... and change it then');
 SET ROLE pgtap_guest;
 SELECT throws_ok($$ SELECT abacus_untrack('own.field', 'guests.wells') $$, '42704', NULL, '... it follows no more');
--- ... whose attributes are not those any more that the columns were chosen for, though they are as many
+-- ... whose attributes have changed since the columns were chosen, though there are as many
 SET ROLE pgtap_owner;
 SELECT abacus_create('own.valued', 2, '{g,h}');
 GRANT ALL ON own.valued, own.valued_vertices TO pgtap_guest;
@@ -173,7 +172,7 @@ SET ROLE pgtap_guest;
 CREATE TRIGGER a AFTER TRUNCATE ON guests.wells FOR EACH STATEMENT EXECUTE FUNCTION abacus_tracked('own.field', '2', 'id', 'x', 'y');
 SELECT throws_ok('TRUNCATE guests.wells', '42501', 'permission denied for schema own', 'a schema that the writer may not use');
 
--- names in triggers of others: no error, and in nobody's way
+-- names in triggers of others: no error, and they disturb no one
 CREATE TABLE guests.notes (id int, x float8, y float8);
 CREATE TRIGGER a AFTER TRUNCATE ON guests.notes FOR EACH STATEMENT EXECUTE FUNCTION abacus_tracked('guests.secret', '2', 'id', 'x', 'y');
 CREATE TRIGGER b AFTER TRUNCATE ON guests.notes FOR EACH STATEMENT EXECUTE FUNCTION abacus_tracked('a.b.c', '2', 'id', 'x', 'y');
@@ -189,7 +188,7 @@ SELECT is(triggers('own.wells'), 4::bigint, '... tracked');
 SELECT lives_ok($$ SELECT abacus_untrack('own.field', 'own.wells') $$, '... and untracked');
 RESET ROLE;
 SELECT is(triggers('guests.wells') + triggers('guests.notes'), 7::bigint, '... and theirs are left alone');
--- the owner's own count
+-- the owner's own triggers count
 RESET ROLE;
 CREATE TRIGGER g AFTER TRUNCATE ON own.wells FOR EACH STATEMENT EXECUTE FUNCTION abacus_tracked('field', '2', 'id', 'x', 'y');
 CREATE TABLE own.notes (id int, x float8, y float8);
@@ -200,7 +199,7 @@ SELECT throws_ok($$ SELECT abacus_track('own.field', 'own.notes') $$, '55006',
 RESET ROLE;
 DROP TRIGGER g ON own.wells;
 
--- a constraint trigger depends on the table that it names after FROM, and is not bound by that
+-- a constraint trigger depends on the table that it names after FROM, but is not bound by that
 SET ROLE pgtap_owner;
 SELECT abacus_create('own.lone', 2);
 CREATE TABLE own.points (id int, x float8, y float8);
@@ -218,14 +217,14 @@ SELECT is(abacus_track('own.lone', 'own.points'), 0::bigint, '... and keep nobod
 SELECT is(triggers('own.points'), 4::bigint, '... of which they go');
 RESET ROLE;
 SELECT is(triggers('guests.wells'), 2::bigint, '... and not from that of somebody else');
--- nor do triggers by hand on another table of the owner's, once the mesh has its own
+-- nor are triggers by hand on another table of the owner, once the mesh has its own
 SET ROLE pgtap_guest;
 CREATE TRIGGER h AFTER TRUNCATE ON own.notes FOR EACH STATEMENT EXECUTE FUNCTION abacus_tracked('lone', '2', 'id', 'x', 'y');
 SET ROLE pgtap_owner;
 SELECT is(abacus_track('own.lone', 'own.points'), 0::bigint, 'a trigger that names a mesh which follows another table');
 SELECT lives_ok($$ SELECT abacus_untrack('own.lone', 'own.notes') $$, '... and is dropped by the owner');
 
--- deferred: the rights are the same, and missed at the statement
+-- deferred: the rights are the same, and missing rights are found at the statement
 SET ROLE pgtap_owner;
 SELECT abacus_track('own.lone', 'own.points', deferred => true);
 GRANT INSERT ON own.points TO pgtap_guest;

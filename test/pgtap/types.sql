@@ -179,7 +179,7 @@ SELECT is(current_setting('abacus.vacuum_moves_rows'), 'on', 'VACUUM moves pages
 SELECT is((SELECT context FROM pg_settings WHERE name = 'abacus.vacuum_moves_rows'), 'user', 'anyone may say whether');
 SELECT is((SELECT context FROM pg_settings WHERE name = 'abacus.fail_host_call'), 'superuser', 'failing is for superusers');
 
--- whoever owns it may alter the type of simplices; what returns them then says so
+-- the owner of the type of simplices may alter it; functions that return it then report that
 SELECT abacus_triangulate('altered', 'VALUES (1, 0, 0), (2, 1, 0), (3, 0, 1)');
 SELECT isnt(abacus_locate('altered', 0.2, 0.2), NULL, 'a simplex as it should be');
 ALTER TYPE abacus_simplex ADD ATTRIBUTE extra bigint;
@@ -190,7 +190,7 @@ SELECT is((SELECT count(*) FROM abacus_vertices('altered')), 3::bigint, 'the poi
 SELECT is((SELECT count(*) FROM abacus_locate('altered', 'SELECT 1, 0.2, 0.2') WHERE v0 IS NOT NULL), 1::bigint, 'and places located');
 ALTER TYPE abacus_simplex DROP ATTRIBUTE extra;
 SELECT throws_ok($$ SELECT abacus_locate('altered', 0.2, 0.2) $$, '55000', 'type abacus_simplex has been altered', 'and dropped again');
--- and so that of leaves
+-- and the same for leaves
 SELECT abacus_octree_create('altered_octree', 2, '{0,0}', '{1,1}', '{v}');
 SELECT is((abacus_octree_locate('altered_octree', 0.2, 0.2)).code, 0::bigint, 'a leaf as it should be');
 ALTER TYPE abacus_octant ALTER ATTRIBUTE level TYPE bigint;

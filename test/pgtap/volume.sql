@@ -1,4 +1,5 @@
--- Volumes: whatever the cache, the order of points and the way a mesh came about; beside changes; of meshes with holes.
+-- Volumes: for any cache, order of points and way of making a mesh; while the mesh changes; of meshes with
+-- holes.
 BEGIN;
 SELECT no_plan();
 SELECT setseed(0.25);
@@ -14,13 +15,13 @@ SET LOCAL abacus.cache_size = '1MB';
 SELECT results_eq($$ SELECT * FROM abacus_volume('after', 'before') $$, 'TABLE known', 'with a small cache');
 RESET abacus.cache_size;
 SELECT results_eq($$ SELECT area, fill, cut FROM abacus_volume('before', 'after') $$, 'SELECT area, cut, fill FROM known', 'the other way round');
--- the same points in another order, by another way
+-- the same points in another order, made in another way
 SELECT isnt(abacus_triangulate('again', 'SELECT -id, x, y, pg_temp.height(x, y) + 0.5 AS height FROM others WHERE id > 3000 ORDER BY y'), NULL, 'a part');
 SELECT is(abacus_insert('again', 'SELECT id, x, y, pg_temp.height(x, y) + 0.5 FROM others WHERE id <= 3000 ORDER BY x'), 3000::bigint, 'and the rest');
 SELECT results_eq($$ SELECT * FROM abacus_volume('again', 'before') $$, 'TABLE known', 'between them is the same, to the last bit');
 SELECT results_eq($$ SELECT * FROM abacus_volume('again', 3, lower => '{100,200}', upper => '{333,444}') $$,
                   $$ SELECT * FROM abacus_volume('after', 3, lower => '{100,200}', upper => '{333,444}') $$, 'over a base, too');
--- a mesh with a hole, loaded: what it lacks is what the others have there
+-- a loaded mesh with a hole: it lacks just the area that the others' triangles cover there
 SELECT isnt(abacus_load('holes', 'SELECT id, x, y, pg_temp.height(x, y) FROM points',
     $$ SELECT v0, v1, v2 FROM abacus_cells('before') WHERE ("corners")[1][1] NOT BETWEEN 400 AND 600 OR ("corners")[1][2] NOT BETWEEN 300 AND 700 $$, '{height}'), NULL, 'a mesh with a hole');
 SELECT is((SELECT round((area + coalesce(missing, 0))::numeric, 6) FROM abacus_volume('holes', 'before'), LATERAL (SELECT sum(abs((c[2][1] - c[1][1]) * (c[3][2] - c[1][2]) - (c[3][1] - c[1][1]) * (c[2][2] - c[1][2]))) / 2 AS missing
@@ -28,7 +29,7 @@ SELECT is((SELECT round((area + coalesce(missing, 0))::numeric, 6) FROM abacus_v
     (SELECT round(area::numeric, 6) FROM abacus_volume('before', 0)), 'the area without the hole');
 SELECT results_eq($$ SELECT cut, fill FROM abacus_volume('holes', 'before') $$, 'VALUES (0::float8, 0::float8)', 'nothing lies between');
 SELECT results_eq($$ SELECT area, cut, fill FROM abacus_volume('after', 'holes') $$, $$ SELECT area, fill, cut FROM abacus_volume('holes', 'after') $$, 'either may have the hole');
--- one row for each row of a query; a change is seen, and taken back
+-- one row for each row of a query; a change is seen, and rolled back
 SELECT is((SELECT round(sum(area)::numeric, 6) FROM generate_series(0, 900, 100) AS x, LATERAL abacus_volume('after', 'before', lower => ARRAY[x, 0], upper => ARRAY[x + 100, 1000])),
           (SELECT round(area::numeric, 6) FROM known), 'windows add up');
 SAVEPOINT changed;
@@ -36,7 +37,7 @@ SELECT isnt(abacus_delete('after', 'SELECT id, x, y FROM others WHERE x > 500'),
 SELECT ok((SELECT area FROM abacus_volume('after', 'before')) < (SELECT area * 0.7 FROM known), 'which the next call sees');
 ROLLBACK TO changed;
 SELECT results_eq($$ SELECT * FROM abacus_volume('after', 'before') $$, 'TABLE known', 'until it is rolled back');
--- a literal without a type is a base if it is a number, else a name
+-- a literal without a type is a base if it is a number, otherwise a name
 SELECT results_eq($$ SELECT * FROM abacus_volume('after', '12.5') $$, $$ SELECT * FROM abacus_volume('after', 12.5) $$, 'a quoted number is a base');
 SELECT throws_matching($$ SELECT abacus_volume('after', 'elsewhere') $$, 'does not exist', '... and another text a mesh');
 SELECT lives_ok($$ SELECT abacus_volume('after', 12), abacus_volume('after', 12.5), abacus_volume('after', base => '12.5') $$, 'numbers are');

@@ -1,4 +1,5 @@
--- Meshes with as many attributes as there can be: a point that waits takes a row of its own, and names have rows beside the header.
+-- Meshes with as many attributes as possible: a waiting point takes a row of its own, and names have rows
+-- beside the header.
 BEGIN;
 SELECT no_plan();
 SET LOCAL client_min_messages = warning;
@@ -146,7 +147,7 @@ SELECT lives_ok('INSERT INTO followed ' || pg_temp.wide('more', 1000), 'more poi
 SELECT pg_temp.in_step('after all changes');
 SELECT pg_temp.sound('follower', 'it');
 
--- carried by the text of its rows, as by a dump
+-- carried by the text of its rows, like a dump
 CREATE TABLE restored OF abacus_simplex_page (page WITH OPTIONS NOT NULL, PRIMARY KEY (code, part));
 CREATE TABLE restored_vertices OF abacus_vertex_page (page WITH OPTIONS NOT NULL, PRIMARY KEY (first, part));
 INSERT INTO restored SELECT code, part, page::text::abacus_page FROM solid;

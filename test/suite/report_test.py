@@ -51,7 +51,7 @@ class Verdicts(unittest.TestCase):
     def test_what_was_not_measured_is_not_held(self):
         self.assertEqual(verdict(0, of()), "not measured")
         self.assertEqual(verdict(0, of(build("cgal", 10**6, 1))), "not measured")
-        # Another cache, another number of points
+        # A different cache, and a different number of points
         self.assertEqual(verdict(0, of(build("cgal", 10**6, 1), build("abacus", 10**6, 1, cache="8"))),
                          "not measured")
         self.assertEqual(verdict(0, of(build("cgal", 10**5, 1), build("abacus", 10**5, 1, cache="default"))),
@@ -151,7 +151,7 @@ class Storage(unittest.TestCase):
         content = {"a": [{"b": 1, "c": "é"}, {"d": [1, 2], "e": {}}], "f": [], "g": None}
         text = results.dump(content)
         self.assertEqual(json.loads(text), content)
-        self.assertIn('{"b": 1, "c": "é"}', text)  # a sample is a line
+        self.assertIn('{"b": 1, "c": "é"}', text)  # one line for each sample
 
     def test_a_part_measured_again_takes_the_place_of_the_earlier(self):
         with tempfile.TemporaryDirectory() as name:

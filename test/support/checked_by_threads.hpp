@@ -1,4 +1,4 @@
-// What abacus_check finds, word for word, by one thread and by several.
+// The faults that abacus_check finds, word for word, with one thread and with several.
 #pragma once
 
 #include "support/oracle.hpp"
@@ -23,7 +23,7 @@ template <int D> std::vector<std::string> faults_of(MeshOf<D> &mesh, std::size_t
     return faults;
 }
 
-/// Expects the same of several threads, each with a tiny part.
+/// Expects the same faults with several threads, each with a tiny part.
 template <int D> void expect_same_faults_by_threads(MeshOf<D> &mesh) {
     const auto alone = faults_of(mesh);
     for (const unsigned threads : {2, 3, 4, 7}) {

@@ -1,5 +1,4 @@
-// Which simplex a place should be found in: of those that contain it the first one, by code and
-// ids.
+// The simplex in which a place should be found: if several contain it, the first by code and ids.
 #pragma once
 
 #include "geometry/predicates.hpp"
@@ -25,7 +24,7 @@ template <int D> int side(const abacus_simplex &s, int i, const Point<D> *p) {
     return orientation<D>(corners);
 }
 
-/// Of a finite one, border included.
+/// Whether a finite simplex contains p, border included.
 template <int D> bool contains(const abacus_simplex &s, const Point<D> &p) {
     for (int i = 0; i <= D; ++i)
         if (side<D>(s, i, &p) < 0) return false;

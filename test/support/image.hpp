@@ -18,7 +18,7 @@ namespace abacus {
 struct Image {
     int width = 0, height = 0;
     std::vector<std::uint32_t> pixels;
-    std::vector<int> alphas; // 255 all over in a PNG without them
+    std::vector<int> alphas; // all 255 in a PNG without alpha
 
     std::uint32_t operator()(int x, int y) const { return pixels[y * width + x]; }
 };

@@ -1,4 +1,4 @@
-// A mesh whose simplices have labels, and what these should be.
+// A mesh whose simplices have labels, and the labels that it should have.
 #pragma once
 
 #include "attributes/attribute_key.hpp"
@@ -71,7 +71,7 @@ public:
         });
         EXPECT_EQ(seen, known_.size());
     }
-    /// Simplices with a label in a range, of all of the mesh and of windows.
+    /// Expects simplices with a label in a range, in the whole mesh and in windows.
     void expect_in_ranges() {
         std::mt19937_64 random(9);
         std::uniform_real_distribution<double> wide(-0.1, 1.1);
@@ -118,7 +118,7 @@ public:
         abacus_places_close(places);
         EXPECT_GT(inside_, 100);
     }
-    /// Gives some simplices other values of these labels, of which the last ones may be new.
+    /// Gives some simplices other values of these labels; the last labels may be new.
     void label(const std::vector<std::uint32_t> &numbers, unsigned seed) {
         std::mt19937_64 random(seed);
         const std::uint32_t known = mesh.header.facts.columns.labels;
@@ -156,7 +156,7 @@ public:
         abacus_labelling_close(labelling);
         mesh.header = named;
     }
-    /// After a change: simplices that are still there have kept theirs, others have none.
+    /// After a change: remaining simplices have kept their labels, others have none.
     void expect_followed() {
         LabelsByIds<D> left;
         std::uint64_t kept = 0;
@@ -189,8 +189,8 @@ public:
         }
         return result;
     }
-    /// After a change: those that are still there have kept theirs, others have what the one had
-    /// before in which their centroid lies. Returns how many have got some so.
+    /// After a change: remaining simplices have kept their labels. Others have the labels of the
+    /// former simplex in which their centroid lies. Returns how many have got some in this way.
     std::size_t expect_inherited(const std::vector<Labelled> &before) {
         LabelsByIds<D> now;
         std::size_t heirs = 0;
@@ -227,7 +227,7 @@ private:
         if (orientation<D>(corners) < 0) std::swap(corners[0], corners[1]);
         return in_simplex<D>(corners, p);
     }
-    /// Of several the one with the least key; null if there is none.
+    /// If there are several, the one with the least key; null if there is none.
     const Labelled *has_centroid(const std::vector<Labelled> &all, const Owner<D, D + 1> &simplex) {
         const Domain<D> domain = domain_of<D>(mesh.header.facts.form);
         Point<D> centroid{};
@@ -246,7 +246,7 @@ private:
         return first;
     }
 
-    /// Calls take(ids, labels) for the simplices of a window, those with a label in a range.
+    /// Calls take(ids, labels) for the simplices of a window that have a label in a range.
     template <class Take>
     void each_cell(const abacus_window &window, const abacus_range *range, Take take) {
         abacus_cells *cells = nullptr;

@@ -32,7 +32,7 @@ template <int D> struct Large : MeshOf<D> {
         EXPECT_EQ(this->insert(input), ABACUS_OK) << this->error.detail;
     }
     std::size_t tenth() const { return this->host.pages.size() * ABACUS_PAGE_BYTES / 10; }
-    /// Inside, at vertices, halfway to others, outside.
+    /// A place inside, at a vertex, halfway to another one, or outside.
     Point<D> place(int round) {
         const auto &a = points_[random() % points_.size()], &b = points_[random() % points_.size()];
         Point<D> p = unit_point<D>(random);

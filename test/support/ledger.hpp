@@ -1,7 +1,7 @@
-// A small type of data in the block cache: entries with a key and a payload, as small as it can
-// be and still use all of the cache. Entries have different weights, so pages have too many
-// bytes now and then. An index names the cached entries by their handles, as the links of a
-// mesh do. So an entry that moves unannounced is noticed.
+// A small type of data in the block cache: entries with a key and a payload, as small as possible
+// while using all features of the cache. Entries have different weights, so pages have too many
+// bytes now and then. An index names the cached entries by their handles, like the links of a mesh.
+// So the test notices an entry that moves unannounced.
 #pragma once
 
 #include "blocks/block_cache.hpp"
@@ -18,7 +18,7 @@ namespace abacus::test {
 
 struct Entry {
     Key key;
-    std::uint32_t payload, weight; // the weight is bytes that it takes in a page
+    std::uint32_t payload, weight; // the weight is its number of bytes in a page
 
     static constexpr std::uint32_t free_mark = 0xffffffffu, most_weight = 400;
 
@@ -35,7 +35,7 @@ struct Entry {
 struct EntryBlocks {
     using Record = Entry;
     struct Note {
-        std::uint32_t pages; // that the block was made of
+        std::uint32_t pages; // from which the block was made
     };
     using Counters = BlockCounters;
     static constexpr std::uint32_t slots = 512;
@@ -63,7 +63,7 @@ public:
         settle(key.code);
         trim();
     }
-    /// Whether there was one.
+    /// Returns whether there was one.
     bool remove(const Key &key) {
         const Handle h = find(key);
         if (h == no_handle) return false;
@@ -179,7 +179,7 @@ private:
     std::map<Handle, Key> index_; // of the cached entries
     BlockIndex surveyed_ = no_block;
     bool in_batch_ = false;
-    Head head_{}; // of the page opened last
+    Head head_{}; // of the last page opened
     std::array<Entry, slots> read_{};
     alignas(8) unsigned char page_[ABACUS_PAGE_BYTES]{};
 };

@@ -11,7 +11,7 @@ namespace abacus::test {
 
 struct LocatedPlace {
     std::int64_t id;
-    std::optional<abacus_simplex> simplex; ///< nothing outside
+    std::optional<abacus_simplex> simplex; ///< none outside
 };
 
 inline abacus_host_status keep_place(void *context, std::int64_t id, const abacus_simplex *simplex,
@@ -21,7 +21,7 @@ inline abacus_host_status keep_place(void *context, std::int64_t id, const abacu
     return ABACUS_HOST_OK;
 }
 
-/// Gives the places to report(context, ...), or keeps them in `located`.
+/// Passes the places to report(context, ...), or keeps them in `located`.
 template <int D>
 abacus_status locate_places(MeshOf<D> &mesh, const std::vector<InputOf<D>> &places,
                             std::vector<LocatedPlace> &located, std::size_t memory = 16 << 20,

@@ -36,7 +36,7 @@ void MemoryHost::recover() {
     spools.clear();
 }
 
-/// Counts a call; false if it shall fail.
+/// Counts a call; false if it must fail.
 bool MemoryHost::enter(std::uint64_t &counter) {
     ++counter;
     if (failed) violation("a host function other than resize() is called after a failure");
@@ -171,7 +171,7 @@ struct MemoryHost::Functions {
 
     static abacus_host_status put(void *context, abacus_page_kind kind, abacus_page *page) {
         MemoryHost &host = self(context);
-        // The bytes may be those that were lent: take them before they are spoilt.
+        // The bytes may be those that were lent: copy them before they are spoilt.
         Page stored;
         stored.assign(page->bytes, page->size);
         if (!host.enter(host.calls.put)) return ABACUS_HOST_FAILED;

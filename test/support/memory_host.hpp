@@ -1,7 +1,6 @@
-// A database for tests and benchmarks: an abacus_host that keeps everything in
-// the memory of the process. Its content is public, so that tests can look at
-// pages and damage them. It also watches that the core keeps the contract of
-// abacus/host_functions.h and lists every breach in `violations`.
+// A database for tests and benchmarks: an abacus_host that keeps everything in the memory of the
+// process. Its content is public, so that tests can read pages and damage them. It also checks that
+// the core keeps the contract of abacus/host_functions.h, and lists every breach in `violations`.
 #pragma once
 
 #include "host/host.hpp"
@@ -53,7 +52,7 @@ public:
         std::uint64_t spool_create = 0, spool_write = 0, spool_rewind = 0, spool_read = 0,
                       spool_close = 0, spool_expect = 0, spool_fits = 0;
 
-        /// All but resize(): those that fail_at() counts.
+        /// All except resize(): the calls that fail_at() counts.
         std::uint64_t fallible() const;
     };
 
@@ -63,25 +62,25 @@ public:
     ~MemoryHost();
 
     const abacus_host *table() const { return &table_; }
-    /// The core may use so many threads; `tiny`: for little work, too, in tiny pieces.
+    /// The core may use this many threads; `tiny`: even for little work, in tiny pieces.
     void set_threads(unsigned threads, bool tiny) {
         table_.threads = threads;
         table_.tiny_intervals = tiny;
     }
-    /// Threads may have so many bytes in all; 0: any number.
+    /// All threads together may have this many bytes; 0: any number.
     void limit_threads(std::size_t bytes) { table_.most_thread_bytes = bytes; }
     /// For code below the C interface.
     Host host() const { return Host(table_); }
 
     /// The n-th fallible call from now (1 = the next) fails; 0 = none.
     void fail_at(std::uint64_t n) { fail_at_ = n == 0 ? 0 : calls.fallible() + n; }
-    /// The n-th call from now that asks for memory gets none; 0 = none.
+    /// The n-th request for memory from now gets none; 0 = none.
     void fail_resize_at(std::uint64_t n) { fail_resize_at_ = n == 0 ? 0 : calls.resize + n; }
     /// Takes over the stored pages of another host.
     void restore(const MemoryHost &other);
     /// Forgets a failure, so that the host can serve further handles.
     void recover();
-    /// The next poll() fails, and the core is told to poll.
+    /// The next poll() fails, and the core is asked to poll.
     void cancel() {
         cancelled = true;
         interrupted = 1;
@@ -95,9 +94,9 @@ public:
     Pages attribute_pages;
     std::set<Spool *> spools;
 
-    // What happened.
+    // The events so far.
     Calls calls;
-    std::size_t bytes = 0; ///< handed out by resize() and not yet given back
+    std::size_t bytes = 0; ///< allocated by resize() and not yet freed
     std::size_t peak_bytes = 0;
     std::size_t spooled_bytes = 0;
     double spool_room = 1e300, expected_bytes = 0; // at most, by one call of spool_expect
@@ -106,13 +105,13 @@ public:
     bool failed = false; ///< a fallible call has failed; only resize() may follow
     std::vector<std::string> violations;
 
-    // What shall happen.
+    // Settings for coming events.
     volatile int interrupted = 0;
     bool cancelled = false;
     std::size_t memory_limit = SIZE_MAX; ///< resize() beyond it gives NULL
     std::function<void(const abacus_progress &)> on_progress;
-    /// Hand out copies of pages and spoil them at the next call, as the contract
-    /// allows; benchmarks turn it off.
+    /// Lend copies of pages and spoil them at the next call, as the contract allows; benchmarks
+    /// turn it off.
     bool strict = true;
 
 private:

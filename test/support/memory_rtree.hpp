@@ -1,4 +1,4 @@
-// An R-tree for tests, without a tree: every search looks at every box.
+// An R-tree for tests, without a tree: every search compares every box.
 #pragma once
 
 #include "host/host.hpp"

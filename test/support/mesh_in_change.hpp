@@ -1,5 +1,5 @@
-// A mesh that a test inserts points into and removes vertices from, over a host of its
-// own, beside the points that it should have.
+// A mesh in which a test inserts points and removes vertices, over a host of its own, with the
+// points that it should have.
 #pragma once
 
 #include "delaunay/insertion.hpp"
@@ -60,7 +60,7 @@ public:
         return true;
     }
 
-    /// Stores a mesh of so many vertices; what is wrong with it.
+    /// Stores a mesh with this many vertices; returns its faults.
     std::vector<std::string> check(std::size_t vertices) {
         cache.flush();
         if (const char *fault = cache.check_invariants()) return {fault};
@@ -70,7 +70,7 @@ public:
         return mesh_.check();
     }
 
-    /// Checks what is stored, and compares it with CGAL's triangulation of these points.
+    /// Checks the stored mesh, and compares it with CGAL's triangulation of these points.
     void verify(const std::vector<Point<D>> &points) {
         ASSERT_EQ(check(points.size()), std::vector<std::string>{});
         ASSERT_TRUE(mesh_.positions() == cgal_simplices<D>(points));

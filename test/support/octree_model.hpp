@@ -1,4 +1,4 @@
-// An octree in memory, made the simple way: to compare with.
+// A simple octree in memory, for comparison.
 #pragma once
 
 #include "octree/grow.hpp"
@@ -30,7 +30,7 @@ public:
     void split_to(std::uint64_t cell, int level) {
         while (find(cell).level < level) split(find(cell));
     }
-    /// Leaves of an octant become one; returns how many there were.
+    /// Merges the leaves of an octant into one; returns how many there were.
     std::uint64_t merge(const Octant<D> &octant) {
         if (find(octant.code).level <= octant.level) return 1;
         const auto begin = leaves.lower_bound(octant.code), end = leaves.lower_bound(octant.end());
@@ -39,7 +39,7 @@ public:
         leaves[octant.code] = octant.level;
         return merged;
     }
-    /// Leaves are split until none has more than so many of the cells, or can be split.
+    /// Splits leaves until none has more than `most` of the cells, or can be split.
     void split_to_points(const std::vector<std::uint64_t> &cells, std::uint64_t most, int levels) {
         for (bool done = false; !done;) {
             done = true;
@@ -52,7 +52,7 @@ public:
                 }
         }
     }
-    /// Leaves that touch, one at a time, until none is too coarse.
+    /// Splits leaves that touch, one at a time, until none is too coarse.
     void balance(int across) {
         std::vector<Octant<D>> queue;
         for (const auto &[code, level] : leaves) queue.push_back({code, level});
@@ -129,8 +129,8 @@ public:
         Growth<D> growth(h, header, bytes);
         growth.to_balance(across, header);
     }
-    /// A new octree on so many pages, a power of 2: the first one has its leaf, the others are
-    /// empty, as merges leave them.
+    /// A new octree on this many pages, a power of 2: the first has its leaf, the others are empty,
+    /// as merges may leave them.
     void spread_root(std::uint64_t pages) {
         const Host h = host->host();
         OctantPageWriter<D> writer(h, static_cast<int>(header.facts.columns.attributes));
@@ -162,7 +162,7 @@ public:
     std::unique_ptr<MemoryHost> host;
 };
 
-/// Cells near a place that is drawn at random, with levels: a deep corner or scattered ones.
+/// Cells near a random place, with levels: a deep corner or scattered ones.
 template <int D>
 std::vector<std::pair<std::uint64_t, int>> random_cells(std::mt19937_64 &random, int n, int depth) {
     std::vector<std::pair<std::uint64_t, int>> cells;

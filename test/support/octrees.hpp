@@ -57,8 +57,8 @@ template <int D> struct Coded : StoredOctree<D> {
     }
 };
 
-/// Fine at a corner and in some places, with an attribute that is a function of the code, and one
-/// that some leaves do not have.
+/// Fine at a corner and in some places. One attribute is a function of the code; another one is
+/// missing in some leaves.
 template <int D> class AskedOctree : public StoredOctree<D> {
 public:
     explicit AskedOctree(std::uint64_t seed) : StoredOctree<D>(2) {

@@ -18,7 +18,7 @@ namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
-/// By even permutations, so that the orientation stays.
+/// By even permutations, which keep the orientation.
 template <int D> Positions<D> canonical(Positions<D> s) {
     const auto first = std::min_element(s.begin(), s.end());
     if constexpr (D == 2) {
@@ -37,7 +37,7 @@ template <int D> Positions<D> canonical(Positions<D> s) {
 Kernel::Point_2 to_cgal(const Point<2> &p) { return {p[0], p[1]}; }
 Kernel::Point_3 to_cgal(const Point<3> &p) { return {p[0], p[1], p[2]}; }
 
-/// CGAL's meshes and their simplices, one name for both dimensions.
+/// CGAL's meshes and their simplices; the same names for both dimensions.
 template <int D> struct Cgal;
 template <> struct Cgal<2> {
     using Mesh = CGAL::Delaunay_triangulation_2<Kernel>;
@@ -171,7 +171,7 @@ abacus_status MeshOf<D>::remove(const std::vector<InputOf<D>> &points, std::uint
             return abacus_build_delete(build, stage, exactly, &header, &deleted, &error);
         });
     };
-    return with_stage(points, memory, use, exactly); // else nobody looks at attributes
+    return with_stage(points, memory, use, exactly); // otherwise attributes do not count
 }
 
 template <int D>

@@ -26,8 +26,8 @@ template <int D> struct InputOf {
 };
 using Input = InputOf<2>;
 
-/// Where the corners of a simplex are, in one order for each simplex: positively
-/// oriented, the lexicographically least first, in 3D the second least next.
+/// The places of a simplex's corners, in the same order for each simplex: positively oriented, the
+/// lexicographically least first, in 3D the second least next.
 template <int D> using Positions = std::array<Point<D>, D + 1>;
 
 /// A mesh of D dimensions over a host of its own.
@@ -37,13 +37,13 @@ template <int D> struct MeshOf {
     /// Each returns the status and keeps the error.
     abacus_status stage(const std::vector<InputOf<D>> &points, std::size_t memory = 16 << 20);
     abacus_status build();
-    /// Without vertex pages between.
+    /// Without vertex pages in between.
     abacus_status insert(const std::vector<InputOf<D>> &points, std::size_t memory = 16 << 20,
                          abacus_on_duplicate on_duplicate = ABACUS_KEEP);
-    /// `deleted` becomes the number of points that there were.
+    /// `deleted` gets the number of points that there were.
     abacus_status remove(const std::vector<InputOf<D>> &points, std::uint64_t &deleted,
                          std::size_t memory = 16 << 20, bool exactly = false);
-    /// Loads a triangulation; simplices are named by the ids of their vertices, and have as many
+    /// Loads a triangulation. Simplices are named by the ids of their vertices, and have as many
     /// labels as the header; facets are ids and a marker each.
     abacus_status load(const std::vector<InputOf<D>> &vertices,
                        const std::vector<std::array<std::int64_t, D + 1>> &simplices,
@@ -51,11 +51,11 @@ template <int D> struct MeshOf {
                        bool retriangulate = false,
                        const std::vector<std::vector<double>> &labels = {},
                        const std::vector<std::uint64_t> &facets = {});
-    abacus_delaunay loaded_as = ABACUS_DELAUNAY; ///< what load() has found
+    abacus_delaunay loaded_as = ABACUS_DELAUNAY; ///< as load() found
     bool split_nodes = false;                    ///< load() keeps vertices at one place apart
-    /// Where all simplices are, sorted.
+    /// The places of all simplices, sorted.
     std::vector<Positions<D>> positions();
-    /// What a scan gives; fails the test if it does not end well.
+    /// The simplices from a scan; fails the test if it does not end well.
     std::vector<abacus_simplex> simplices(bool ghosts);
     /// "kind: message" of each fault.
     std::vector<std::string> check();
@@ -107,15 +107,15 @@ private:
 };
 using OpenMesh = OpenMeshOf<2>;
 
-/// n points of the unit square, drawn from the seed.
+/// n points of the unit square, drawn with the seed.
 std::vector<Point<2>> unit_square_points(int n, unsigned seed);
 /// Points with the ids 0, 1, 2, ...
 template <int D> std::vector<InputOf<D>> number(const std::vector<Point<D>> &points);
 inline std::vector<Input> number(const std::vector<Point<2>> &points) { return number<2>(points); }
-/// Where finite simplices are, sorted.
+/// The places of finite simplices, sorted.
 template <int D>
 std::vector<Positions<D>> positions_of(const std::vector<abacus_simplex> &simplices);
-/// Where CGAL's Delaunay simplices of the points are, sorted.
+/// The places of CGAL's Delaunay simplices of the points, sorted.
 template <int D> std::vector<Positions<D>> cgal_simplices(const std::vector<Point<D>> &points);
 
 } // namespace abacus::test

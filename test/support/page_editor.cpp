@@ -87,7 +87,7 @@ void PageEditor::write(MemoryHost::Page &page) const {
     const std::vector<Simplex<2>> slots = this->slots();
     writer.order(slots.data(), static_cast<std::uint32_t>(slots.size()), Handle{}, vertices,
                  numbered, border);
-    for (std::uint32_t n = 1; n <= ids.size(); ++n) // of no simplex
+    for (std::uint32_t n = 1; n <= ids.size(); ++n) // without a simplex
         numbered.number(vertices, VertexIndex{n});
     const bool is_told = !border.empty();
     writer.expect_links(links.size());

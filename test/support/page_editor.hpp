@@ -17,13 +17,13 @@ struct PageEditor {
     static constexpr int infinity = -1; // corner at infinity
 
     PageEditor(const MemoryHost::Page &page, const abacus_header &mesh);
-    /// Puts the page together, checksum included. The links are those of the facets that find
-    /// no partner, in order. A page that is no longer sound may take more bytes, since each
-    /// simplex then has to name its vertices.
+    /// Writes the page, checksum included. The links are those of the facets that find no partner,
+    /// in order. A page that is no longer sound may take more bytes, since each simplex then has to
+    /// name its vertices.
     void write(MemoryHost::Page &page) const;
 
     int number_of(const Point<2> &p) const;
-    /// A vertex on the border of the page, or one that no other page has.
+    /// A vertex on the border of the page, or one that is only in this page.
     int vertex(bool on_border) const;
     bool is_ghost(int simplex) const { return simplices[simplex][2] == infinity; }
     /// The neighbour inside the page across facet i; -1 if it is in another one.
@@ -41,7 +41,7 @@ struct PageEditor {
     std::vector<std::array<int, 3>> simplices;
 
 private:
-    /// What PageWriter is told: vertices by 1 + their number, and what lies across each facet.
+    /// The input of PageWriter: vertices by 1 + their number, and what lies across each facet.
     std::vector<Simplex<2>> slots() const;
 };
 

@@ -1,4 +1,4 @@
-// A mesh to be damaged, again and again, and healed after each time.
+// A mesh that tests damage again and again, and heal after each time.
 #pragma once
 
 #include "support/checked_by_threads.hpp"
@@ -36,7 +36,7 @@ public:
         keep();
     }
 
-    /// What the mesh is now is what it returns to.
+    /// Makes the present state the one to which the mesh returns.
     void keep() {
         pages_ = mesh.host.pages;
         staged_pages_ = mesh.host.staged_pages;
@@ -46,8 +46,8 @@ public:
         EXPECT_EQ(mesh.check(), std::vector<std::string>{});
     }
 
-    /// The faults after `damage`; the mesh is sound again afterwards. `by_threads`: several threads
-    /// have to find the same.
+    /// The faults after `damage`; afterwards the mesh is sound again. `by_threads`: several threads
+    /// must find the same faults.
     std::vector<std::string> faults(const std::function<void()> &damage, bool by_threads = false) {
         damage();
         const std::vector<std::string> found = mesh.check();

@@ -1,4 +1,4 @@
-// The points that a mesh should hold after insertions and deletions, listed by place.
+// The points that a mesh should have after insertions and deletions, listed by place.
 #pragma once
 
 #include "support/oracle.hpp"
@@ -20,12 +20,12 @@ public:
         for (const InputOf<D> &p : points) places_[p.point].push_back(p);
         waiting_ = false;
     }
-    /// Each takes the place of all points there.
+    /// Each point replaces all points at its place.
     void replace(const std::vector<InputOf<D>> &points) {
         for (const InputOf<D> &p : points) places_[p.point] = {p};
         waiting_ = false;
     }
-    /// Whether each is at a place of its own.
+    /// Whether each point has a place of its own.
     bool are_apart(const std::vector<InputOf<D>> &points) const {
         std::set<Point<D>> here;
         return std::all_of(points.begin(), points.end(), [&](const InputOf<D> &p) {
@@ -36,8 +36,8 @@ public:
         insert(points);
         waiting_ = true;
     }
-    /// Of several points at a place the one with the id goes, or else the first. Returns how
-    /// many there were.
+    /// If there are several points at a place, the one with the id goes, or else the first. Returns
+    /// how many there were.
     std::uint64_t remove(const std::vector<InputOf<D>> &points) {
         std::uint64_t removed = 0;
         waiting_ = false;
@@ -53,8 +53,8 @@ public:
         }
         return removed;
     }
-    /// Of several points at a place the one with the id gets the attributes `which`, or else the
-    /// first. Returns how many there were.
+    /// If there are several points at a place, the one with the id gets the attributes `which`, or
+    /// else the first. Returns how many there were.
     std::uint64_t update(const std::vector<InputOf<D>> &points,
                          const std::vector<std::uint32_t> &which) {
         std::uint64_t updated = 0;
@@ -72,7 +72,7 @@ public:
         }
         return updated;
     }
-    /// All have other attributes, as abacus_build_change_attributes() says.
+    /// Gives all points other attributes, in the way of abacus_build_change_attributes().
     void change_attributes(const std::vector<std::uint32_t> &source) {
         for (auto &[place, here] : places_)
             for (InputOf<D> &p : here) {
@@ -90,7 +90,7 @@ public:
         return all;
     }
 
-    /// Simplices, ids, attributes, and what the check says.
+    /// Compares simplices, ids and attributes, and runs the check.
     void expect(MeshOf<D> &mesh) const {
         if (!waiting_) {
             std::vector<Point<D>> distinct;
@@ -133,7 +133,7 @@ private:
         for (const auto &[place, here] : places_) ASSERT_EQ(seen.at(place).size(), here.size());
     }
 
-    bool waiting_ = false; // some points: the simplices are not yet those of all
+    bool waiting_ = false; // some points wait: there are not yet simplices of all
     std::map<Point<D>, std::vector<InputOf<D>>> places_; // in the order in which they came
 };
 

@@ -1,4 +1,4 @@
-// What changes say that they have created and removed, beside what a mesh has before and after.
+// The simplices that changes report as created and removed, and the mesh before and after.
 #pragma once
 
 #include "keys/domain_of.hpp"
@@ -101,7 +101,7 @@ private:
             result.push_back(changed<D>(s, created));
         return result;
     }
-    /// A change tells the difference between the mesh before and after.
+    /// The report of a change is the difference between the mesh before and after.
     template <class Change> void expect(Change change) {
         rows.clear();
         Rows before = all(false);

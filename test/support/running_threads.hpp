@@ -15,7 +15,7 @@ inline int threads_now() {
     return n;
 }
 
-/// A sanitizer adds one of its own to the first.
+/// A sanitizer adds one thread to the first.
 inline const int threads_at_first = [] {
     std::thread([] {}).join();
     std::this_thread::sleep_for(std::chrono::milliseconds(50));

@@ -34,8 +34,8 @@ inline std::vector<Point<3>> full_cube(std::size_t n) {
     return result;
 }
 
-// The corners of octants, refined towards a corner of the cube of side 16: 1 below 4, 2
-// below 8, else 4.
+// The corners of octants that are refined towards a corner of the cube of side 16: 1 below 4, 2
+// below 8, otherwise 4.
 inline std::vector<Point<3>> octree() {
     std::vector<Point<3>> result;
     for (const Point<3> &p : cube(16)) {
@@ -99,8 +99,8 @@ protected:
         EXPECT_EQ(try_draw(section, drawing), ABACUS_OK) << error.message;
         return image;
     }
-    /// The areas of all sections together, which is that of the cut if they overlap
-    /// nowhere; adds their corners to `corners`.
+    /// The area of all sections together, which is that of the cut if they do not overlap; adds
+    /// their corners to `corners`.
     double area(const abacus_section &section, std::vector<Point<2>> *corners = nullptr) {
         const Plane plane(section);
         double sum = 0;
@@ -122,8 +122,7 @@ protected:
         abacus_scan_close(scan);
         return sum / (Plane::scale * Plane::scale);
     }
-    /// Every pixel has the colour of a field of one value: nothing is blank, and
-    /// nothing is half covered.
+    /// Every pixel has the colour of a field with one value: nothing is blank or half covered.
     void expect_full(const Image &image) {
         for (const std::uint32_t pixel : image.pixels) ASSERT_EQ(pixel, full);
     }

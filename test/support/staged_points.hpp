@@ -71,7 +71,7 @@ abacus_status stage(MemoryHost &host, abacus_header &header, const Input<D> &inp
     return status;
 }
 
-/// The staged points in order, from the pages; checks what every page keeps.
+/// The staged points in order, from the pages; checks the invariants of every page.
 template <int D> Input<D> staged(MemoryHost &host, const abacus_header &header) {
     Input<D> result;
     for (auto &[key, page] : host.staged_pages) {

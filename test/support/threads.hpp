@@ -1,4 +1,4 @@
-// What tests of changes by several threads share.
+// What the tests of changes by several threads share.
 #pragma once
 
 #include "support/oracle.hpp"
@@ -32,7 +32,7 @@ protected:
                 {next_id++, p, {std::uniform_real_distribution<double>(0, 1)(random)}});
         return inputs;
     }
-    /// Its simplices by ids, and of each simplex the corners: with one thread and with several.
+    /// Its simplices by ids, and the corners of each simplex: with one thread and with several.
     static std::vector<std::vector<std::int64_t>> ids(MeshOf<D> &mesh) {
         std::vector<std::vector<std::int64_t>> result;
         for (const abacus_simplex &s : mesh.simplices(false)) {

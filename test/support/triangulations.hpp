@@ -1,4 +1,4 @@
-// Triangulations to be loaded: vertices and simplices by their ids, made from other ones.
+// Triangulations for loading: vertices and simplices by their ids, made from others.
 #pragma once
 
 #include "geometry/predicates.hpp"
@@ -21,7 +21,7 @@ template <int D> struct Triangulation {
                             [&](const auto &v) { return v.id == id; })
             ->point;
     }
-    /// Leaves out vertices without simplices.
+    /// Removes vertices without simplices.
     void tidy() {
         std::vector<std::int64_t> used;
         for (const Ids<D> &s : simplices) used.insert(used.end(), s.begin(), s.end());
@@ -30,14 +30,14 @@ template <int D> struct Triangulation {
             return !std::binary_search(used.begin(), used.end(), v.id);
         });
     }
-    /// In other orders of rows and of corners.
+    /// Changes the order of rows and of corners.
     void shuffle(unsigned seed) {
         std::mt19937_64 random(seed);
         std::shuffle(vertices.begin(), vertices.end(), random);
         std::shuffle(simplices.begin(), simplices.end(), random);
         for (Ids<D> &s : simplices) std::shuffle(s.begin(), s.end(), random);
     }
-    /// With the other's simplices beside them; its ids are moved.
+    /// Adds the other's simplices; moves its ids.
     void add(const Triangulation &other, std::int64_t by) {
         for (auto v : other.vertices) {
             v.id += by;
@@ -50,7 +50,7 @@ template <int D> struct Triangulation {
     }
 };
 
-/// CGAL's Delaunay triangulation; ids are those of the points' numbers, times 3 less 7.
+/// CGAL's Delaunay triangulation; the ids are the points' numbers, times 3 less 7.
 template <int D> Triangulation<D> delaunay(const std::vector<Point<D>> &points) {
     Triangulation<D> result;
     std::map<Point<D>, std::int64_t> ids;

@@ -1,11 +1,10 @@
-# Servers that lose a process: what the crash tests have in common.
+# Servers that lose a process: the common part of the crash tests.
 #
-# A statement runs in a session of its own; at a random moment its backend, the
-# checkpointer or the postmaster is killed with signal 9, or the statement is
-# cancelled or the session terminated. Then the server recovers. What a killed
-# process has written is safe with the operating system; so fsync may be off.
+# A statement runs in a session of its own. At a random moment its backend, the checkpointer or the postmaster
+# is killed with signal 9, or the statement is cancelled, or the session terminated. Then the server recovers.
+# Data that a killed process has written is safe in the operating system, so fsync may be off.
 #
-#     ABACUS_SEED    of the random moments; printed, to do it again
+# ABACUS_SEED    of the random moments; printed, to repeat them
 package AbacusCrash;
 
 use strict;
@@ -20,7 +19,7 @@ use Time::HiRes qw(time usleep);
 
 our @EXPORT = qw(crash_node run_and_strike);
 
-# In the order in which they are taken, again and again.
+# Killed in this order, again and again.
 my @victims = qw(backend postmaster backend checkpointer backend cancel postmaster terminate);
 
 # A server for crashes, with the extensions.
@@ -57,7 +56,7 @@ sub start_again
 	return;
 }
 
-# A server that has lost a process ends all others, recovers, and has a new checkpointer.
+# A server that has lost a process ends all others, recovers, and gets a new checkpointer.
 sub await_other_checkpointer
 {
 	my ($node, $old) = @_;
@@ -73,7 +72,7 @@ sub await_other_checkpointer
 	return;
 }
 
-# Stops what runs as process $pid, and waits until the server is there again.
+# Strikes the process $pid, and waits until the server is up again.
 sub strike
 {
 	my ($node, $victim, $pid) = @_;
@@ -84,7 +83,7 @@ sub strike
 		"SELECT pid FROM pg_stat_activity WHERE backend_type = 'checkpointer'");
 	if ($victim eq 'postmaster')
 	{
-		# all of them: one that waits for a lock of the killed backend notices nothing
+		# all of them: a backend that waits for a lock of the killed one notices nothing
 		my @others = split /\n/, $node->safe_psql('postgres',
 			'SELECT pid FROM pg_stat_activity WHERE pid <> pg_backend_pid()');
 		$node->kill9;
@@ -99,8 +98,8 @@ sub strike
 	return;
 }
 
-# Runs a statement, or several of a list, and strikes after at most $longest seconds. What $look returns
-# at that moment is returned, the victim, and whether the statement was still running.
+# Runs a statement, or several of a list, and strikes after at most $longest seconds. Returns the result of
+# $look at that moment, the victim, and whether the statement was still running.
 sub run_and_strike
 {
 	my ($node, $statement, $longest, $look) = @_;
@@ -109,7 +108,7 @@ sub run_and_strike
 	my $session = IPC::Run::start(
 		[   'psql', '-XAtq', '-v', 'ON_ERROR_STOP=1', '-d', $node->connstr('postgres'),
 			'-c', 'SELECT pg_backend_pid()', (map { ('-c', $_) } @statements),
-			'-c', "SELECT 'done'", '-c', 'SELECT pg_sleep(3600)' ], # so that there is one to kill
+			'-c', "SELECT 'done'", '-c', 'SELECT pg_sleep(3600)' ], # so that there is a session to kill
 		'>', \$out, '2>', \$err,
 		IPC::Run::timeout($PostgreSQL::Test::Utils::timeout_default));
 

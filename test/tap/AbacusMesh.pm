@@ -1,4 +1,4 @@
-# What the TAP tests ask of a mesh, through a PostgreSQL::Test::Cluster node.
+# Questions of the TAP tests to a mesh, through a PostgreSQL::Test::Cluster node.
 package AbacusMesh;
 
 use strict;
@@ -62,7 +62,7 @@ sub mesh_pages
 		"SELECT (pg_relation_size('$mesh') + pg_relation_size('${mesh}_vertices')) / 8192");
 }
 
-# Has all rows leave the first half of their table for a second one.
+# Moves all rows from the first half of their table to a second one.
 sub spread_mesh
 {
 	my ($node, $database, $mesh) = @_;
@@ -87,7 +87,7 @@ SQL
 	return;
 }
 
-# How many simplices one mesh has and the other has not.
+# How many simplices one mesh has that the other lacks.
 sub other_simplices
 {
 	my ($node, $database, $mesh, $wanted, $dimension) = @_;
@@ -101,7 +101,7 @@ SELECT count(*) FROM (
 SQL
 }
 
-# A test: abacus_check finds nothing.
+# A test: abacus_check finds no fault.
 sub is_sound
 {
 	my ($node, $database, $mesh, $what) = @_;
@@ -109,7 +109,7 @@ sub is_sound
 		'', "$what: the mesh is sound");
 }
 
-# Two tests: nor does amcheck in its tables and indexes. Needs the extension amcheck.
+# Two tests: amcheck also finds none in its tables and indexes. Needs the extension amcheck.
 sub is_intact
 {
 	my ($node, $database, $mesh, $what) = @_;

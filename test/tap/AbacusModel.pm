@@ -1,5 +1,5 @@
-# Meshes whose points are noted in a table by the transactions that change them:
-# so for every snapshot it is known what the mesh must be.
+# Meshes whose points are noted in a table by the transactions that change them. So the content of the mesh is
+# known for every snapshot.
 #
 #     mesh2, mesh3               the meshes, by dimension
 #     mesh2_noted, mesh3_noted   their points
@@ -137,8 +137,8 @@ SQL
 	return;
 }
 
-# Six tests: it has the points of the committed changes and no other, their
-# simplices, labels and markers of these and no others, and sound pages and indexes.
+# Six tests: it has exactly the points of the committed changes, exactly their simplices, labels and markers,
+# and sound pages and indexes.
 sub is_as_noted
 {
 	my ($node, $d, $what) = @_;

@@ -1,9 +1,8 @@
 # abacus_build under kill -9.
 #
-# Builds are stopped at random moments. After recovery nothing of a committed
-# batch is missing and nothing of an unfinished one is there; the mesh and its
-# indexes are sound; and a further call ends with the same simplices as a build
-# at once.
+# Builds are stopped at random moments. After recovery nothing of a committed batch is missing and nothing of
+# an unfinished one is there; the mesh and its indexes are sound; and a further call ends with the same
+# simplices as a build at once.
 #
 #     ABACUS_KILLS   how many times (default 20)
 use strict;
@@ -35,8 +34,8 @@ for my $m (@meshes)
 	$m->{once} = "once$m->{dimension}";
 	sql("SELECT abacus_triangulate('$m->{once}', '$m->{query}', dimension => $m->{dimension})");
 
-	# A strike comes after two sessions of psql have begun: a build has to take many times as
-	# long, or nearly none would be struck. More batches make it longer.
+	# A strike comes after two sessions of psql have begun. A build must take many times as long, or almost
+	# none would be hit. More batches make it longer.
 	while (1)
 	{
 		sql("SELECT abacus_create('timed', $m->{dimension})");
@@ -89,8 +88,8 @@ while ($struck < $kills)
 	sql("DROP TABLE $mesh");
 	$complete++;
 }
-# After the last batch the emptied vertex table is truncated. A crash right then, with nothing of
-# the write-ahead log on disk that no commit has asked for:
+# After the last batch the emptied vertex table is truncated. A crash right then, when no more of the
+# write-ahead log is on disk than commits have flushed:
 sql("ALTER SYSTEM SET $_") for 'wal_writer_delay = 10000', 'bgwriter_delay = 10000', 'bgwriter_lru_maxpages = 0', 'autovacuum = off';
 $node->restart;
 sql("SELECT abacus_create('emptied', 2)");
@@ -98,7 +97,7 @@ sql("SELECT abacus_stage('emptied', 'SELECT id, x, y FROM points WHERE id <= 200
 sql('CHECKPOINT');
 my $session = $node->background_psql('postgres');
 $session->query_until(qr/begins/, "\\echo begins\nDO \$\$ BEGIN CALL abacus_build('emptied', 5000); RAISE LOG 'emptied is built'; PERFORM pg_sleep(3600); END \$\$;\n");
-# Not by a query: its snapshot would keep the vertex table from being truncated.
+# Not with a query: its snapshot would keep the vertex table from being truncated.
 my $patience = 600;
 while (slurp_file($node->logfile) !~ /LOG:  emptied is built/)
 {

@@ -1,5 +1,5 @@
-# abacus_build when a call of the database, or an allocation, fails: the
-# batches before are there, nothing is held, and the next call goes on.
+# abacus_build when a call of the database, or an allocation, fails: the earlier batches are there, nothing is
+# held, and the next call continues.
 use strict;
 use warnings;
 
@@ -21,7 +21,7 @@ sql("CREATE EXTENSION abacus;
 	SELECT i AS id, (i * 7919) % 1009 AS x, (i * 104729) % 997 AS y FROM generate_series(1, $points) AS i");
 sql("SELECT abacus_triangulate('once', 'TABLE points')");
 
-# The error leaves the session as it was, so the same one looks and goes on.
+# The error leaves the session unchanged, so the same one looks and continues.
 my ($failures, $call, $failed) = (0, 1, 1);
 my %inserted;
 while ($failed)

@@ -1,7 +1,6 @@
-# abacus_build on a full disk: what is committed stays, and with room again
-# the next call goes on. ABACUS_SMALL_DISK names an empty folder on a file
-# system of about 14 MB (scripts/test.sh mounts one).
-# Then temporary files for which there is no room.
+# abacus_build on a full disk: committed batches stay, and with free space again the next call continues.
+# ABACUS_SMALL_DISK names an empty folder on a file system of about 14 MB (scripts/test.sh mounts one). Then
+# temporary files that do not fit.
 use strict;
 use warnings;
 
@@ -51,7 +50,7 @@ is( sql("SELECT count(*) FROM (SELECT v0, v1, v2 FROM abacus_simplices('field') 
 			SELECT v0, v1, v2 FROM abacus_simplices('once')) AS other"),
 	0, 'with the same simplices as built at once');
 
-# What temporary files will take is counted where that can be, and refused before any is written.
+# If the size of temporary files can be estimated, too large ones are refused before any is written.
 sub refused
 {
 	my ($query) = @_;

@@ -1,8 +1,8 @@
 # Changes of a mesh, each a transaction, under kill -9.
 #
-# Random changes are stopped at random moments. After recovery the mesh has
-# exactly the points that the committed transactions have noted, the simplices
-# of a mesh made of those, sound tables and indexes; and the changes go on.
+# Random changes are stopped at random moments. After recovery the mesh has exactly the points that the
+# committed transactions have noted, the simplices of a mesh made from them, and sound tables and indexes; and
+# the changes continue.
 #
 #     ABACUS_KILLS   how many times (default 20)
 use strict;

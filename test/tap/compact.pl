@@ -1,5 +1,5 @@
-# abacus_build moves the rows of a mesh to the beginning of its tables, so that VACUUM can cut
-# them: after statements that changed points all over the mesh, beside readers, and under kill -9.
+# abacus_build moves the rows of a mesh to the beginning of its tables, so that VACUUM can cut them: after
+# statements that changed points all over the mesh, beside readers, and under kill -9.
 #
 #     ABACUS_KILLS   how many times (default 8)
 use strict;
@@ -29,7 +29,7 @@ sql(q{SELECT setseed(0.5);
 	SELECT i AS id, random() AS x, random() AS y, random() AS z, random() AS turn FROM generate_series(1, 60000) AS i;});
 create_rest($node, 'postgres');
 
-# Statements that take a twentieth of the points away, and put them back.
+# Statements that remove a twentieth of the points, and insert them again.
 sub change
 {
 	my ($m, $times) = @_;
@@ -57,7 +57,7 @@ for my $m (@meshes)
 	sql("VACUUM $mesh");
 	cmp_ok(size($mesh), '>', 1.6 * $m->{fresh}, "$mesh: VACUUM alone does not cut it");
 
-	# A session that knows where pages are, for it has looked into them.
+	# A session that knows the places of pages, since it has read them.
 	my $places = "SELECT sum(hashint8(v0) + hashint8(v1) * 2::bigint + hashint8(v2) * 3::bigint) FROM points p,
 		LATERAL abacus_locate('$mesh', " . ($m->{dimension} == 2 ? 'y, x' : 'y, z, x') . ') WHERE id <= 20000';
 	my $locator = $node->background_psql('postgres');
@@ -93,8 +93,8 @@ for my $m (@meshes)
 	is_intact($node, 'postgres', $mesh, $mesh);
 }
 
-# Whatever comes in between, the mesh is the same, and the next call goes on. What spreads the rows
-# over the table again is an UPDATE, the shortest way.
+# Whatever happens in between, the mesh is the same, and the next call continues. An UPDATE is the shortest
+# way to spread the rows over the table again.
 for my $n (1 .. $kills)
 {
 	my $m = $meshes[ $n % @meshes ];
@@ -120,7 +120,7 @@ SQL
 }
 is(content($_->{name}), $_->{content}, "$_->{name}: the same mesh after further changes") for @meshes;
 
-# Pages of repeated points lie behind those of points that were staged.
+# Pages of repeated points lie behind those of staged points.
 sql("SELECT abacus_create('twice', 2)");
 sql("SELECT abacus_stage('twice', 'SELECT id, x, y FROM points UNION ALL SELECT -id, x, y FROM points WHERE id <= 3000')");
 my $staged = sql("SELECT pg_relation_size('twice_vertices')");

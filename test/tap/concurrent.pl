@@ -1,6 +1,5 @@
-# Many sessions at once. Some change a mesh, and note what they do in a table;
-# the others look whether the mesh is as the table says, in each isolation
-# level, from sessions that keep their cache.
+# Many sessions at once. Some change a mesh, and note their changes in a table; the others check whether the
+# mesh agrees with the table, in each isolation level, from sessions that keep their cache.
 use strict;
 use warnings;
 
@@ -22,8 +21,8 @@ $node->start;
 $node->safe_psql('postgres', 'CREATE EXTENSION abacus; CREATE EXTENSION amcheck');
 make_models($node);
 
-# A look fails if anything of one snapshot disagrees with the rest of it. Now and then so few
-# points are left that they span no simplex.
+# A check fails if anything in one snapshot disagrees with the rest of it. Sometimes so few points are left
+# that they span no simplex.
 $node->safe_psql('postgres', <<'SQL');
 CREATE FUNCTION look(dimension int) RETURNS void LANGUAGE plpgsql STABLE AS $$
 DECLARE
@@ -69,13 +68,13 @@ for my $name (sort keys %scripts)
 	push @files, '-f', $file . ($name =~ /look/ ? '@3' : $name eq 'maintenance' ? '@0' : '@1');
 }
 
-# one session looks after the tables meanwhile
+# one session maintains the tables meanwhile
 my $maintenance = $node->basedir . '/maintenance.sql';
 my ($out, $err) = ('', '');
 my $keeper = IPC::Run::start(
 	[ 'pgbench', '-n', '-T', $seconds, '-f', $maintenance, $node->connstr('postgres') ],
 	'>', \$out, '2>', \$err);
-# serialization failures and deadlocks are tried again; anything else ends a client
+# serialization failures and deadlocks are retried; anything else ends a client
 my ($all, $errors) = run_command(
 	[ 'pgbench', '-n', '-T', $seconds, '-c', 6, '-j', 2, '--max-tries', 0, @files, $node->connstr('postgres') ]);
 $keeper->finish;
@@ -85,7 +84,7 @@ my ($count) = $all =~ /number of transactions actually processed: (\d+)/;
 my ($retried) = $all =~ /number of transactions retried: (\d+)/;
 cmp_ok($count, '>', 50, "$count transactions, $retried of them tried again");
 
-# Calls that begin just when one index takes the place of another
+# Calls that begin just when one index replaces another
 my ($calls, $reindex) = map { $node->basedir . "/$_.sql" } qw(calls reindex);
 append_to_file($calls, "SELECT count(*) FROM abacus_stats('mesh2');");
 append_to_file($reindex, 'REINDEX TABLE CONCURRENTLY mesh2;');

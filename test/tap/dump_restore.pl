@@ -1,5 +1,5 @@
-# pg_dump and pg_restore: whole databases and single tables, every format, into
-# other databases and schemas; then the restored mesh is changed like the first.
+# pg_dump and pg_restore: whole databases and single tables, every format, into other databases and schemas;
+# then the restored mesh is changed like the original.
 use strict;
 use warnings;
 
@@ -86,7 +86,7 @@ sub grow
 	return mesh_content($node, $database, $mesh) . mesh_labels($node, $database, $mesh);
 }
 
-# Whether the vertex table goes where its mesh goes.
+# Whether dropping the mesh drops its vertex table.
 sub is_bound
 {
 	my ($database, $mesh) = @_;
@@ -103,7 +103,7 @@ sub fresh_database
 	return;
 }
 
-# What must be so after a restore; then the mesh changes as the origin does later.
+# Checks after a restore; then the mesh changes as the original does later.
 sub examine
 {
 	my ($database, $what) = @_;
@@ -157,7 +157,7 @@ $node->command_ok([ 'pg_dump', '-d', $origin, '-Fc', '--data-only', '-f', "$fold
 $node->command_ok([ 'pg_dump', '-d', $origin, '-Fc', '-t', 'field', '-f', "$folder/one" ], 'one table');
 $node->command_ok([ 'pg_dump', '-d', $origin, '-Fc', '-t', 'field_vertices', '-f', "$folder/other" ], 'the other');
 
-# single tables: the mesh alone answers, with the other beside it all is there
+# single tables: the mesh alone answers; with the other table, everything is there
 fresh_database('single');
 $node->safe_psql('single', 'CREATE SCHEMA abacus; CREATE EXTENSION abacus SCHEMA abacus');
 $node->command_ok([ 'pg_restore', '-d', $node->connstr('single'), "$folder/one" ], 'single table restored');
@@ -169,7 +169,7 @@ my ($status, $out, $err) = $node->psql('single', "SELECT count(*) FROM abacus_ve
 like($err, qr/mesh "field" has no vertex table/, 'single table: what is missing is said');
 $node->command_ok([ 'pg_restore', '-d', $node->connstr('single'), "$folder/other" ], 'the other restored');
 is(mesh_content($node, 'single', 'field'), $content{'public.field'}, 'both: complete');
-# before any change: two tables that only their names hold together
+# before any change: two tables that only their names connect
 is(is_bound('single', 'public.field'), 0, 'both: not bound yet');
 $node->safe_psql('single', <<'SQL');
 CREATE SCHEMA elsewhere;
@@ -184,7 +184,7 @@ is_sound($node, 'single', 'elsewhere.field', 'moved, changed, renamed');
 $node->safe_psql('single', 'DROP TABLE elsewhere.field');
 is($node->safe_psql('single', "SELECT to_regclass('elsewhere.any_name')"), '', 'dropping drops both');
 
-# dropped before any change, the vertex table stays, and says what it is
+# if the mesh is dropped before any change, the vertex table stays, and says what it is
 $node->command_ok([ 'pg_restore', '-d', $node->connstr('single'), "$folder/one" ], 'single table again');
 $node->command_ok([ 'pg_restore', '-d', $node->connstr('single'), "$folder/other" ], 'the other again');
 $node->safe_psql('single', 'DROP TABLE field');
@@ -202,7 +202,7 @@ is_sound($node, 'copied', 'field', 'COPY out and in');
 
 like($labels{$meshes[1]}, qr/^labels [1-9]\d{3,} .*\nmarkers [1-9]\d{3,} /, 'there are labels and markers');
 
-# everything else is compared with what the origin becomes
+# everything else is compared with the later original
 $grown{$_} = grow('origin', $_) for @meshes;
 
 fresh_database('plain');
@@ -210,7 +210,7 @@ $node->command_ok([ 'psql', '-Xq', '-v', 'ON_ERROR_STOP=1', '-d', $node->connstr
 examine('plain', 'text');
 fresh_database('custom');
 $node->command_ok([ 'pg_restore', '-e', '-1', '-d', $node->connstr('custom'), "$folder/custom" ], 'custom format restored');
-# over what is there
+# over existing objects
 $node->command_ok([ 'pg_restore', '-e', '--clean', '-d', $node->connstr('custom'), "$folder/custom" ], '... and once more, dropping what is there');
 examine('custom', 'custom format');
 fresh_database('directory');
@@ -221,7 +221,7 @@ $node->command_ok([ 'psql', '-Xq', '-v', 'ON_ERROR_STOP=1', '-d', $node->connstr
 $node->command_ok([ 'pg_restore', '-e', '-j', '2', '-d', $node->connstr('data'), "$folder/data" ], 'data restored');
 examine('data', 'schema, then data');
 
-# names of attributes are in the pages, which nobody converts: there and back between encodings
+# names of attributes are in the pages, which are not converted: there and back between encodings
 sub attribute_works
 {
 	my ($database) = @_;
@@ -250,7 +250,7 @@ attribute_works('in_utf8');
 is($node->safe_psql('in_utf8', q{SELECT count(*) FROM abacus_check('heights')}), 0, 'sound there');
 is($node->safe_psql('in_utf8', q{SELECT count(*) FROM abacus_attributes('many') WHERE name = U&'\00f6' || position}), 300, 'and so are 300 names');
 
-# characters that the encoding of a database lacks: read there as escapes, and still stored
+# characters that the encoding of a database lacks: read there as escapes, but still stored
 sub characters_of
 {
 	my ($database) = @_;
@@ -294,7 +294,7 @@ copy_kinds('in_latin1', 'in_utf8');
 is(characters_of('in_utf8'), "H\xc3\xb6he|\xf0\x9f\x9c\x81x|" . "\xe9\xab\x98" x 20 . "|gr\xc3\xb6sse", '... and the others as they were');
 is(labels_of('in_utf8'), "b\xc3\xb6den|\xe9\xab\x98", '... those of labels, too');
 
-# what is no text is no name, except where nobody knows
+# bytes that are not valid text are not a valid name, except where that cannot be known
 $node->safe_psql('in_utf8', q{UPDATE heights SET page = replace(page::text, 'c3b6', '66f6')::abacus_page WHERE code = -1});
 ($status, $out, $err) = $node->psql('in_utf8', q{SELECT abacus_locate('heights', 1, 1)});
 like($err, qr/mesh is corrupted.*The name of attribute 1 is not valid in UTF-8/s, 'bytes that are no text');

@@ -1,5 +1,5 @@
-# What the free space map is told of a mesh's heap pages: of new ones that were not used, and
-# of empty ones that another session has filled in the meantime.
+# What the free space map knows about a mesh's heap pages: new ones that were not used, and empty ones that
+# another session has filled in the meantime.
 use strict;
 use warnings;
 
@@ -13,7 +13,7 @@ use Test::More;
 my $node = PostgreSQL::Test::Cluster->new('free_space');
 $node->init;
 $node->append_conf('postgresql.conf', "fsync = off\nautovacuum = off\n" .
-	"abacus.threads = 1");  # how many pages stay unused depends on the layout, which threads change
+	"abacus.threads = 1");  # the number of unused pages depends on the layout, which threads change
 $node->start;
 sub sql { return $node->safe_psql('postgres', $_[0]); }
 
@@ -28,7 +28,7 @@ CREATE FUNCTION zeros(mesh regclass) RETURNS TABLE (block bigint, avail int) LAN
 SQL
 my $unknown = "SELECT count(*) FROM zeros('built') WHERE avail < 8128";
 
-# abacus_build looks at all heap pages at its end, and so does VACUUM where the module is loaded.
+# abacus_build reads all heap pages at its end, and so does VACUUM if the module is loaded.
 sql("SELECT abacus_create('built', 2)");
 sql("SELECT abacus_stage('built', 'SELECT * FROM points WHERE id <= 200000')");
 sql("CALL abacus_build('built')");
@@ -45,8 +45,8 @@ sql("SELECT abacus_insert('built', 'SELECT * FROM points WHERE id > 200000')");
 is(sql("SELECT count(*) FROM left_over JOIN zeros('built') USING (block)"), 0, 'the next statement writes them');
 is_sound($node, 'postgres', 'built', 'after it');
 
-# A session remembers pages that it has left empty, and finds them filled: none of them has room for
-# its next rows, and no other page either.
+# A session remembers pages that it has left empty, and finds them filled: none of them has room for its next
+# rows, nor has any other page.
 for my $fill (100, 90)
 {
 	my $mesh = "filled$fill";

@@ -1,5 +1,5 @@
-# Functions in SQL and expressions that are compiled: what is asked of a small window, a line or a raster
-# takes milliseconds, and must not wait for the compiler, as the planner thinks best where it does not know
+# Functions in SQL and expressions that are compiled: a question about a small window, a line or a raster
+# takes milliseconds, and must not wait for the compiler, which the planner may choose when it does not know
 # the arguments.
 use strict;
 use warnings;
@@ -25,7 +25,7 @@ SELECT abacus_triangulate('rock', 'SELECT 100 * i + 10 * j + k, i, j, k, i + j *
 ANALYZE field, rock;
 SQL
 
-# By the function that is called; p is a place, of which the planner knows nothing.
+# By the called function; p is a place that the planner does not know.
 my $window = 'ST_Expand(p, 3)';
 my %calls = (
 	_abacus_lower => "SELECT _abacus_lower('field', $window)",

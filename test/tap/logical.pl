@@ -1,5 +1,5 @@
-# Logical replication of the two tables of a mesh: what is there, then every
-# change as its transaction, batches of a build included.
+# Logical replication of the two tables of a mesh: the existing rows, then every change as its transaction,
+# including batches of a build.
 use strict;
 use warnings;
 
@@ -54,7 +54,7 @@ sub is_same
 }
 is_same('initial copy');
 
-# a transaction arrives whole: changed twice, one of the changes taken back
+# a transaction arrives as a whole: changed twice, one of the changes rolled back
 my $session = $subscriber->background_psql('postgres');
 my $locate = "SELECT v0, v1, v2 FROM abacus_locate('field', 0.5, 0.5)";
 my $before = $session->query($locate);
@@ -76,7 +76,7 @@ my $after = $session->query($locate);
 isnt($after, $before, 'a session that had the mesh in its cache sees the change');
 is($after, $publisher->safe_psql('postgres', $locate), '... as the publisher does');
 
-# batches of a build, and readers there: always at one of them
+# batches of a build, with readers there: they always see a complete batch
 $publisher->safe_psql('postgres', "SELECT abacus_stage('field', 'SELECT * FROM points WHERE id > 5000')");
 my ($inserted, $looks, %seen, %wrong) = (0, 0);
 my $changed = 2 - 714; # points inserted and deleted above
@@ -105,7 +105,7 @@ is(join("\n", keys %wrong), '', "$looks looks during the build, each at one whol
 cmp_ok(scalar(keys %seen), '>=', 2, scalar(keys %seen) . ' states seen');
 is_same('after the build');
 
-# many changes in one transaction, which takes the space of its own old pages
+# many changes in one transaction, which reuses the space of its own old pages
 $publisher->safe_psql('postgres', <<'SQL');
 DO $$ BEGIN FOR i IN 1 .. 150 LOOP
 	PERFORM abacus_insert('field', format('SELECT %s, %s, %s', 300000 + i, i * 0.7548 % 1, i * 0.5698 % 1));
@@ -114,7 +114,7 @@ SELECT sum(abacus_insert('field', format('SELECT %s, %s, %s', 310000 + i, i * 0.
 SQL
 is_same('many small changes in one transaction');
 
-# TRUNCATE and what fills the tables again
+# TRUNCATE, and statements that fill the tables again
 $publisher->safe_psql('postgres', <<'SQL');
 CREATE TABLE saved AS TABLE field;
 CREATE TABLE saved_vertices AS TABLE field_vertices;
@@ -126,7 +126,7 @@ COMMIT;
 SQL
 is_same('truncated and filled again');
 
-# taken over: the subscription ends, the mesh goes on
+# takeover: the subscription ends, and the mesh can be changed
 $subscriber->safe_psql('postgres', 'DROP SUBSCRIPTION mesh');
 for my $node ($publisher, $subscriber)
 {

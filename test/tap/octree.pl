@@ -1,7 +1,7 @@
 # Octrees under kill -9, cancel, and many sessions at once.
 #
-# Each change is a transaction that also notes what the leaves are after it. Whatever has happened
-# meanwhile, the leaves that a snapshot sees are those that it sees noted, and the pages are sound.
+# Each change is a transaction that also notes the leaves after it. Whatever has happened meanwhile, the
+# leaves in a snapshot are those noted in it, and the pages are sound.
 #
 #     ABACUS_KILLS    how many times (default 10)
 #     ABACUS_SECONDS  of many sessions at once (default 5)
@@ -38,7 +38,7 @@ BEGIN
 		WHEN 2 THEN PERFORM abacus_octree_update(octree, format('SELECT code, random() FROM abacus_octants(%L) WHERE random() < 0.1', octree));
 		ELSE PERFORM abacus_octree_refine(octree, places);
 	END CASE;
-	-- the octree is locked: what is seen now is what was there before, and this change
+	-- the octree is locked: this sees the earlier leaves and this change
 	UPDATE noted SET changes = changes + 1, leaves = leaves(change.dimension) WHERE noted.dimension = change.dimension;
 END $$;
 CREATE PROCEDURE change_on(dimension int) LANGUAGE plpgsql AS $$
@@ -81,7 +81,7 @@ for my $strike (1 .. $kills)
 }
 cmp_ok(changes($_), '>', 0, changes($_) . " changes of the octree of dimension $_") for 2, 3;
 
-# many sessions: some change, the others look
+# many sessions: some change, the others check
 my %scripts = (
 	change_2 => 'SELECT change(2);',
 	change_3 => 'SELECT change(3);',
@@ -99,7 +99,7 @@ for my $name (sort keys %scripts)
 	push @files, '-f', $file . ($name =~ /look/ ? '@3' : '@1');
 }
 my $before = changes(2) + changes(3);
-# serialization failures are tried again; anything else ends a client
+# serialization failures are retried; anything else ends a client
 my ($out, $err) = run_command(
 	[ 'pgbench', '-n', '-T', $seconds, '-c', 6, '-j', 2, '--max-tries', 0, @files, $node->connstr('postgres') ]);
 unlike($err, qr/abort|ERROR/, 'no session fails') or diag($err);

@@ -1,6 +1,6 @@
-# pg_upgrade into a new cluster, where every OID that is not kept is another:
-# the tables are taken over as files, byte by byte, and the mesh goes on. The old server is of the
-# same version, or the one in the folder ABACUS_OLD_SERVER.
+# pg_upgrade into a new cluster, where every OID that is not kept differs: the tables are taken over as files,
+# byte by byte, and the mesh can be used and changed. The old server has the same version, or is the one in
+# the folder ABACUS_OLD_SERVER.
 use strict;
 use warnings;
 
@@ -23,8 +23,8 @@ SELECT abacus_stage('field', 'SELECT -i, i, i * i, 1 FROM generate_series(1, 100
 SELECT abacus_triangulate('solid', 'SELECT i, (i * 7919) % 101, (i * 104729) % 97, (i * 31) % 89 FROM generate_series(1, 3000) AS i', dimension => 3);
 SQL
 my @meshes = ('field', 'solid');
-# 15.20 keeps a version in the options of columns that were added. Servers of other branches that are
-# older than that do not know it, so pg_upgrade could take over no such table, of whatever extension.
+# 15.20 stores a version in the options of added columns. Older servers of other branches do not know it, so
+# pg_upgrade could not take over such a table of any extension.
 chomp(my $bin = `pg_config --bindir`);
 my $knows = system('grep', '-q', 'pg_attver', $bin . '/postgres') == 0;
 $old->safe_psql('postgres', q{UPDATE pg_attribute SET attoptions = NULL WHERE attoptions::text ~ 'pg_attver'}) unless $knows;
@@ -32,11 +32,11 @@ my %old = map { $_ => mesh_content($old, 'postgres', $_) . "\n" . mesh_bytes($ol
 $old->stop;
 
 my $new = PostgreSQL::Test::Cluster->new('new');
-# from 18 on a cluster has checksums if it is not told otherwise, and both must agree
+# from 18 on a cluster has checksums by default, and both must agree
 my @as_before = @old_server && `initdb --help` =~ /--no-data-checksums/ ? (extra => ['--no-data-checksums']) : ();
 $new->init(@as_before);
 $new->append_conf('postgresql.conf', 'fsync = off');
-# pg_upgrade writes into the folder it is called in
+# pg_upgrade writes into the current folder
 chdir ${PostgreSQL::Test::Utils::tmp_check};
 command_ok(
 	[   'pg_upgrade', '--no-sync', '-d', $old->data_dir, '-D', $new->data_dir,

@@ -1,5 +1,5 @@
-# Prepared transactions: a change waits, unseen, through a crash too; the
-# session that prepared it sees the mesh as it was before, and other writers wait.
+# Prepared transactions: a change waits unseen, even through a crash; the session that prepared it sees the
+# mesh as before, and other writers wait.
 use strict;
 use warnings;
 

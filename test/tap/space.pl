@@ -1,6 +1,5 @@
-# The space of replaced pages: a table that grew while somebody saw the old versions goes back
-# to its size. Pages are written to the first heap pages that have become empty, so that VACUUM
-# can cut the rest.
+# The space of replaced pages: a table that grew while old versions were still visible returns to its size.
+# Pages are written to the first heap pages that have become empty, so that VACUUM can cut the rest.
 use strict;
 use warnings;
 
@@ -16,10 +15,10 @@ $node->init;
 $node->append_conf('postgresql.conf', "fsync = off\nautovacuum = off");
 $node->start;
 
-# Each change is a transaction of its own, and meets a few of the mesh's pages.
+# Each change is a transaction of its own, and affects a few of the mesh's pages.
 $node->safe_psql('postgres', <<'SQL');
 CREATE EXTENSION abacus;
--- always the same places: on them depends how far back a row lies that nobody has replaced since
+-- always the same places: they decide how far back a row lies that has not been replaced since
 SELECT setseed(0.5);
 CREATE TABLE points AS SELECT n AS id, random() AS x, random() AS y FROM generate_series(1, 40000) AS n;
 SELECT abacus_triangulate('mesh', 'SELECT * FROM points WHERE id <= 20000');
@@ -45,7 +44,7 @@ $node->poll_query_until('postgres',
 	"SELECT count(*) = 1 FROM pg_stat_activity WHERE application_name = 'keeper' AND query ~ 'sleep'")
   or die 'nobody sees the old versions';
 
-# One session, which remembers what it has replaced.
+# One session, which remembers the pages that it has replaced.
 my ($grown, $after, $vacuumed) = split /\n/, $node->safe_psql('postgres', <<"SQL");
 CALL exchange(1, 40);
 $size

@@ -1,5 +1,5 @@
-# A streaming standby answers while the primary builds: always one committed
-# state; it refuses changes; a reader that holds back recovery is told so.
+# A streaming standby answers while the primary builds, always from one committed state; it refuses changes; a
+# reader that delays recovery gets an error.
 use strict;
 use warnings;
 
@@ -48,8 +48,8 @@ sub build
 		IPC::Run::timeout($PostgreSQL::Test::Utils::timeout_default));
 }
 
-# One look at the mesh, in a session of its own or in $session: points inserted,
-# after a test that all answers belong to that state.
+# One look at the mesh, in a session of its own or in $session: returns the number of inserted points, after a
+# test that all answers belong to that state.
 sub look
 {
 	my ($session) = @_;
@@ -71,7 +71,7 @@ SQL
 	return ($inserted, "@wrong" eq ($inserted > 0 ? 't t 0 5' : 't t 0 0') ? '' : $row);
 }
 
-# sessions that stay, and so have a cache, and others
+# long sessions, which have a cache, and new ones
 my $session = $standby->background_psql('postgres');
 my (%seen, %wrong);
 my ($last, $looks) = (0, 0);
@@ -112,7 +112,7 @@ for my $function (qw(abacus_track abacus_untrack))
 }
 is($standby->safe_psql('postgres', 'SELECT count(*) FROM abacus_progress'), 0, 'no progress there');
 
-# what is unlogged has no file there
+# unlogged tables have no file there
 $primary->safe_psql('postgres', <<'SQL');
 SELECT abacus_triangulate('fleeting', 'VALUES (1, 0, 0), (2, 1, 0), (3, 0, 1), (4, 0, 1)');
 ALTER TABLE fleeting_vertices SET UNLOGGED;
@@ -126,8 +126,8 @@ $primary->wait_for_catchup($standby);
 ($status, $out, $err) = $standby->psql('postgres', "SELECT abacus_locate('fleeting', 0.1, 0.1)");
 like($err, qr/cannot access unlogged mesh table "fleeting" during recovery/, 'an unlogged mesh has nothing there');
 
-# without feedback the primary prunes what a reader there still needs: the
-# reader gives way to recovery, with an error that asks to try again
+# without feedback the primary prunes rows that a reader there still needs: the reader gives way to recovery,
+# with an error that suggests a retry
 $standby->adjust_conf('postgresql.conf', 'hot_standby_feedback', 'off');
 $standby->reload;
 $primary->poll_query_until('postgres', 'SELECT backend_xmin IS NULL FROM pg_stat_replication')
@@ -143,8 +143,8 @@ ok($standby->log_contains('due to conflict with recovery'), '... and is told so'
 is_sound($standby, 'postgres', 'field', 'a new reader');
 is(mesh_content($standby, 'postgres', 'field'), mesh_content($primary, 'postgres', 'field'), '... sees the mesh of the primary');
 
-# promoted between two batches of a build: the first waits for a lock on the header row, the second
-# for one on the vertex table, which was asked for during the first
+# promoted between two batches of a build: the first waits for a lock on the header row, the second for one on
+# the vertex table, which was requested during the first
 $primary->safe_psql('postgres', "SELECT abacus_stage('field', 'SELECT id + 200000, 1 - x * x, y * y FROM points WHERE id <= 24000')");
 my $first = $primary->background_psql('postgres');
 $first->query_safe('BEGIN; SELECT FROM field WHERE code = -1 FOR UPDATE');

@@ -1,7 +1,6 @@
-# A snapshot on a standby that is older than an index which REINDEX CONCURRENTLY has
-# built on the primary: the index lacks pages that this snapshot would have to see.
-# PostgreSQL has that hole for every table. A reader of a mesh gets an error, and no
-# answer from a part of the mesh.
+# A snapshot on a standby that is older than an index which REINDEX CONCURRENTLY has built on the primary: the
+# index lacks pages that this snapshot should see. PostgreSQL has that gap for every table. A reader of a mesh
+# gets an error, not an answer from a part of the mesh.
 use strict;
 use warnings;
 
@@ -26,7 +25,7 @@ SQL
 $primary->backup('base');
 my $standby = PostgreSQL::Test::Cluster->new('standby');
 $standby->init_from_backup($primary, 'base', has_streaming => 1);
-# With feedback the primary prunes nothing that such a snapshot sees, in its catalogues neither.
+# With feedback the primary prunes nothing that such a snapshot sees, not even in its catalogues.
 $standby->append_conf('postgresql.conf', <<'CONF');
 hot_standby_feedback = on
 max_standby_streaming_delay = 10s
@@ -43,7 +42,7 @@ my @reads = (
 	"SELECT count(*) FROM generate_series(1, 400) i, abacus_locate('field', 0.37 + 0.26 * (i % 20) / 20, 0.37 + 0.26 * (i / 20) / 20)",
 	"SELECT count(*) FROM abacus_locate('field', 'SELECT i, 0.02 + 0.96 * (i % 20) / 20, 0.02 + 0.96 * (i / 20) / 20 FROM generate_series(0, 399) i')");
 
-# Snapshots that are taken now, and used when the index is another one.
+# Snapshots that are taken now, and used after the index has been replaced.
 my @sessions = map { $standby->background_psql('postgres', on_error_stop => 0) } @reads;
 $_->query('BEGIN ISOLATION LEVEL REPEATABLE READ; SELECT count(*) FROM pg_class') for @sessions;
 $primary->poll_query_until('postgres', 'SELECT backend_xmin IS NOT NULL FROM pg_stat_replication');
@@ -70,7 +69,7 @@ for my $i (0 .. $#reads)
 }
 is_intact($standby, 'postgres', 'field', 'standby');
 
-# A page that is lost is lost, whatever the snapshot.
+# If a page is lost, it is lost for every snapshot.
 $primary->safe_psql('postgres', "DELETE FROM field WHERE code = (SELECT code FROM field WHERE code > 0 ORDER BY code OFFSET 5 LIMIT 1)");
 $primary->wait_for_catchup($standby);
 my ($status, $out, $err) = $standby->psql('postgres', "\\set VERBOSITY verbose\nSELECT count(*) FROM abacus_simplices('field')");

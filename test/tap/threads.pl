@@ -1,4 +1,5 @@
-# A session whose threads are at work is terminated, or killed: the server goes on, and the mesh is as it was.
+# A session whose threads are at work is terminated, or killed: the server continues, and the mesh is as
+# before.
 use strict;
 use warnings;
 
@@ -21,8 +22,8 @@ my $before = $node->safe_psql('postgres', "SELECT count(*), sum(v0) FROM abacus_
 my $insertion = "SELECT abacus_insert('field', 'SELECT id + 1000000, x + 0.3, y + 0.3 FROM points')";
 my $deletion = "SELECT abacus_delete('field', 'TABLE points')";
 
-# Starts a change in a session of its own; returns that, and its process once it has threads. It does
-# not commit: a change that is over before it is stopped leaves the mesh as it was, too.
+# Starts a change in a session of its own; returns the session, and its process once it has threads. It does
+# not commit, so a change that is finished before it is stopped also leaves the mesh unchanged.
 sub begin_change
 {
 	my ($change) = @_;
@@ -44,7 +45,7 @@ sub begin_change
 	die 'no threads were started';
 }
 
-# A psql that is refused may end before it has read its query, which would be an error of its own.
+# A rejected psql may end before it has read its query, which would be a different error.
 sub wait_for_server
 {
 	my $deadline = time() + 120;

@@ -16,13 +16,14 @@ CREATE TABLE points AS SELECT i AS id, random() AS x, random() AS y FROM generat
 SELECT abacus_triangulate('field', 'TABLE points');
 SQL
 
-# Work that takes long, as it is done in tiny pieces
+# Work that takes long, since it is done in tiny pieces
 my %work = (
 	check => q{DO 'BEGIN FOR i IN 1 .. 1000 LOOP PERFORM count(*) FROM abacus_check(''field''); END LOOP; END'},
 	locate => q{SELECT count(*) FROM generate_series(1, 1000) n, abacus_locate('field', 'SELECT id, x, y FROM points WHERE id >' || n) l},
 	insert => q{SELECT abacus_insert('field', 'SELECT id + 1000000, x + 0.3, y + 0.3 FROM points')});
 
-# Starts it in a session of its own; returns that, its process once it has threads, and the most that are shown meanwhile.
+# Starts it in a session of its own; returns the session, its process once it has threads, and the most
+# threads shown.
 sub begin_work
 {
 	my ($name) = @_;

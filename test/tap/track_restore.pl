@@ -1,5 +1,5 @@
-# Tables that a mesh follows, dumped and restored: their triggers find the mesh by name, are bound
-# again at once, and have the rights of the table's owner only then. Then an unlogged one crashes.
+# Tables that a mesh follows, dumped and restored: their triggers find the mesh by name, are bound again at
+# once, and have the rights of the table's owner only then. Then an unlogged mesh and table crash.
 use strict;
 use warnings;
 
@@ -41,7 +41,7 @@ sub bound
 		"SELECT count(*) FROM pg_depend WHERE classid = 'pg_trigger'::regclass AND refobjid = 's.field'::regclass");
 }
 
-# As a role, with the SQL's errors.
+# Runs SQL as a role; returns its errors.
 sub as
 {
 	my ($role, $database, $sql) = @_;
@@ -67,7 +67,7 @@ for my $database ('built', 'written')
 	my $insert = 'INSERT INTO s.wells VALUES (1000, 3.5, 4.5)';
 	like(as('guest', $database, $insert), qr/permission denied for table field/,
 		"$database: who has no rights on the mesh has to wait");
-	# one binds them by a change of the mesh, the other by one of the table
+	# one binds them by changing the mesh, the other by changing the table
 	is($database eq 'built'
 		? as('owner', $database, "CALL abacus.abacus_build('s.field')")
 		: as('owner', $database, 'DELETE FROM s.wells WHERE id < 10'), '', "$database: the owner writes");
@@ -82,7 +82,7 @@ for my $database ('built', 'written')
 		0, "$database: the triggers go with the mesh");
 }
 
-# a crash empties both, and what is left of the mesh says so
+# a crash empties both, and the rest of the mesh reports that
 $node->safe_psql('origin', <<'SQL');
 SET search_path = s, abacus;
 ALTER TABLE wells SET UNLOGGED;

@@ -1,6 +1,6 @@
 # Many changes of tracked tables in one transaction: versions of pages that it has made and replaced are
-# pruned before it ends. What is replayed of that, after a crash and on a standby, is the same byte by
-# byte. And meshes that follow at commit: prepared, dumped and restored, with partitions.
+# pruned before it ends. Replaying this after a crash and on a standby gives the same bytes. And meshes that
+# follow at commit: prepared, dumped and restored, with partitions.
 use strict;
 use warnings;
 
@@ -60,7 +60,7 @@ SKIP:
 is(differences($node, 'postgres', 'field', 'wells'), 0, '... and in step');
 is_intact($node, 'postgres', 'field', '... and whole');
 
-# on the standby, where somebody reads meanwhile
+# on the standby, with a reader
 my $reader = $standby->background_psql('postgres', on_error_stop => 0);
 $reader->query_safe('BEGIN ISOLATION LEVEL REPEATABLE READ');
 my $count = "SELECT count(*) FROM abacus_simplices('field')";
@@ -93,7 +93,7 @@ $node->wait_for_catchup($standby);
 is(differences($standby, 'postgres', 'field', 'wells'), 0, 'standby: in step after all that');
 $standby->stop;
 
-# prepared: the mesh is changed by then
+# prepared: the mesh is already changed
 $node->safe_psql('postgres', "SELECT abacus_track('field', 'wells', deferred => true)");
 for my $end ('ROLLBACK', 'COMMIT')
 {

@@ -1,7 +1,6 @@
-# ALTER EXTENSION UPDATE of abacus and abacus_lab: from every version that was released.
-# The result must be what CREATE EXTENSION makes. A mesh made by that version
-# (meshes/<version>.sql, from pg_dump) goes on, or a message says that it cannot.
-# Objects that have moved from abacus to abacus_lab keep working where they are used.
+# ALTER EXTENSION UPDATE of abacus and abacus_lab, from every released version. The result must be what CREATE
+# EXTENSION makes. A mesh made by that version (meshes/<version>.sql, from pg_dump) still works, or a message
+# says that it cannot. Objects that have moved from abacus to abacus_lab keep working where they are used.
 use strict;
 use warnings;
 
@@ -12,7 +11,7 @@ use PostgreSQL::Test::Cluster;
 use PostgreSQL::Test::Utils;
 use Test::More;
 
-# Versions whose meshes are not read any more. The others' must go on.
+# Versions whose meshes can no longer be read. All others must still work.
 my %unread = map { $_ => 1 } '0.1.0';
 # Versions in which abacus_quake belonged to abacus.
 my %without_lab = map { $_ => 1 } '0.1.0';
@@ -22,7 +21,7 @@ $node->init;
 $node->append_conf('postgresql.conf', 'fsync = off');
 $node->start;
 
-# All that an extension is made of, as the catalogues have it.
+# All objects of an extension, from the catalogues.
 sub catalogue
 {
 	my ($database, $extension) = @_;
@@ -48,7 +47,7 @@ SELECT extversion, extrelocatable FROM pg_extension WHERE extname = '$extension'
 SQL
 }
 
-# Its released versions, from which the way must lead straight here.
+# The released versions; from each there must be a direct update.
 sub released
 {
 	my ($extension, $version) = @_;
@@ -122,7 +121,7 @@ for my $old (@released)
 	is($node->safe_psql($database, "SELECT count(*) FROM pg_proc WHERE proname ~ '^abacus'"), 0, "$old: nothing is left behind");
 }
 
-# another schema, moved before and after
+# another schema, moved before and after the update
 $node->safe_psql('elsewhere', <<"SQL");
 CREATE SCHEMA a; CREATE SCHEMA b;
 CREATE EXTENSION abacus SCHEMA a VERSION '$released[0]';
@@ -132,7 +131,7 @@ ALTER EXTENSION abacus SET SCHEMA public;
 SQL
 is(catalogue('elsewhere', 'abacus'), $fresh{abacus}, 'updated in another schema, and moved');
 
-# objects that use what has gone to abacus_lab: they go on, and abacus_lab takes it up
+# objects that use functions moved to abacus_lab: they still work, and abacus_lab takes these functions over
 for my $old (sort keys %without_lab)
 {
 	my $database = 'used_' . $old =~ tr/./_/r;

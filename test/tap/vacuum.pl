@@ -1,6 +1,5 @@
-# VACUUM alone gives the space of a mesh back, in sessions that have the module loaded: after
-# changes all over it, whichever tables are named. It does not where options forbid it, and it does
-# not block others.
+# VACUUM alone gives the space of a mesh back, in sessions that have loaded the module: after changes all over
+# it, whichever tables are named. It does not if options forbid it, and it does not block others.
 use strict;
 use warnings;
 
@@ -22,7 +21,7 @@ sub content { return mesh_content($node, 'postgres', $_[0]); }
 sub pages { return mesh_pages($node, 'postgres', $_[0]); }
 sub spread { return spread_mesh($node, 'postgres', $_[0]); }
 
-# What a session that has the module loaded is told.
+# The messages in a session that has loaded the module.
 sub vacuum
 {
 	my ($statement, $before) = @_;
@@ -34,8 +33,8 @@ sql(q{CREATE EXTENSION abacus; CREATE EXTENSION amcheck; SELECT setseed(0.5);
 	CREATE TABLE points AS
 	SELECT i AS id, random() AS x, random() AS y, random() AS z, random() AS turn FROM generate_series(1, 60000) AS i});
 
-# Changes all over a mesh, in large statements and in small ones: VACUUM without the module, or told
-# not to, leaves what they need.
+# Changes all over a mesh, in large statements and in small ones: VACUUM without the module, or with it turned
+# off, does not free their space.
 for my $m (
 	{ name => 'plane', dimension => 2, columns => 'id, x, y', points => 60_000, parts => 20 },
 	{ name => 'pieces', dimension => 2, columns => 'id, x, y', points => 60_000, parts => 2_000 },
@@ -72,7 +71,7 @@ SQL
 }
 
 
-# From now on an UPDATE spreads the rows over the table, which is the shortest way.
+# From now on an UPDATE spreads the rows over the table, as the shortest way.
 my $fresh = pages('plane');
 my $content = content('plane');
 my $header = 'SELECT xmin FROM plane WHERE code = -1';
@@ -87,7 +86,7 @@ sub cuts
 	return $told;
 }
 
-# Two tests: that a statement leaves rows and files as they are, and its messages.
+# Two tests: a statement leaves rows and files unchanged; and its messages.
 sub leaves
 {
 	my ($what, $wanted, $statement, $before) = @_;
@@ -114,7 +113,7 @@ leaves('several statements', 'ERROR:  VACUUM cannot run inside a transaction blo
 leaves('no such table', 'ERROR:  relation "nothing" does not exist', 'VACUUM plane, nothing');
 leaves('no such option', "ERROR:  unrecognized VACUUM option \"cut\"\nLINE 1: VACUUM (CUT) plane\n                ^", 'VACUUM (CUT) plane');
 
-# The statement counts more than the table's setting; the other table is not named.
+# The statement overrides the table's setting; the other table is not named.
 cuts('TRUNCATE on', 'VACUUM (TRUNCATE on) plane');
 sql('ALTER TABLE plane RESET (vacuum_truncate)');
 for my $level ('repeatable read', 'serializable')
@@ -130,8 +129,7 @@ is_intact($node, 'postgres', $_, "whole database: $_") for qw(plane solid);
 spread('plane');
 cuts('FULL', 'VACUUM FULL plane, plane_vertices');
 
-# Pages of repeated points lie behind those of points that were staged. A vertex table that was
-# restored is found by its name.
+# Pages of repeated points lie behind those of staged points. A restored vertex table is found by its name.
 sql('CREATE ROLE one');
 for my $bound (1, 0)
 {
@@ -150,11 +148,11 @@ for my $bound (1, 0)
 	sql('DROP TABLE twice; DROP TABLE IF EXISTS twice_vertices');
 }
 
-# Users who may vacuum a table may have its rows moved, whatever else they may do.
+# Users who may vacuum a table may have its rows moved, whatever their other rights.
 sql(q{CREATE ROLE owner; CREATE ROLE other;
 	ALTER TABLE plane OWNER TO owner; ALTER TABLE plane_vertices OWNER TO owner});
 spread('plane');
-# from 17 on there is a privilege to do so
+# from 17 on there is a privilege for this
 my $maintain = sql('SHOW server_version_num') >= 170000;
 leaves('somebody else', $maintain ? 'WARNING:  permission denied to vacuum "plane", skipping it'
 	: 'WARNING:  skipping "plane" --- only table or database owner can vacuum it', 'VACUUM plane', 'SET ROLE other');

@@ -1,5 +1,5 @@
-# VACUUM that moves the pages of meshes, beside other sessions, and when something is wrong. It
-# waits for nobody, takes nothing from readers, and does a VACUUM's work in any case.
+# VACUUM that moves the pages of meshes, beside other sessions, and with failures. It waits for no one, takes
+# nothing from readers, and always does a VACUUM's work.
 #
 #     ABACUS_CANCELS   how many times to cancel (default 20)
 use strict;
@@ -29,7 +29,7 @@ sub sql { return $node->safe_psql('postgres', $_[0]); }
 sub pages { return mesh_pages($node, 'postgres', $_[0]); }
 sub spread { return spread_mesh($node, 'postgres', $_[0]); }
 
-# What statements, each sent alone, tell beside their results.
+# The messages of statements, each sent alone.
 sub told
 {
 	my (undef, undef, $told) = $node->psql('postgres', $_[0]);
@@ -51,7 +51,7 @@ sub is_cut
 	return cmp_ok(pages($mesh), '<=', 1.1 * $fresh, "$what: the file of $mesh is cut");
 }
 
-# Somebody has the mesh, or a row of it, locked: the rest of VACUUM is done at once.
+# Another session has locked the mesh, or a row of it: the rest of VACUUM is done at once.
 spread($_) for qw(plane other);
 my $holder = $node->background_psql('postgres');
 for my $statement ("SELECT abacus_insert('plane', 'SELECT 0, 0.5, 0.5')",
@@ -76,7 +76,7 @@ sql("ROLLBACK PREPARED 'prepared'");
 is(told('VACUUM other'), '', 'when it has ended, no error');
 is_cut('other', 'when it has ended');
 
-# A session in the middle of a cursor, with the mesh in its cache, another one that knows where pages are.
+# A session in the middle of a cursor, with the mesh in its cache; another one that knows the places of pages.
 my $reader = $node->background_psql('postgres', on_error_stop => 0);
 $reader->query_safe("BEGIN ISOLATION LEVEL REPEATABLE READ;
 	DECLARE reading CURSOR FOR SELECT v0, v1, v2 FROM abacus_simplices('plane'); MOVE 1000 FROM reading");
@@ -100,7 +100,7 @@ is_cut('plane', 'reader: when it has gone');
 is($locator->query_safe($places), $located, 'reader: pages where the file was cut are found, too');
 $locator->quit;
 
-# The same with so few pages that VACUUM by itself puts off their index entries, and with them the cut.
+# The same with so few pages that VACUUM itself postpones their index entries, and with them the cut.
 spread('plane');
 sql($_) for 'SET abacus.vacuum_moves_rows = off; VACUUM plane',
 	'UPDATE plane SET part = part WHERE ctid NOT IN (SELECT ctid FROM plane ORDER BY ctid DESC LIMIT 3)',
@@ -115,8 +115,8 @@ $told = told('VACUUM (VERBOSE) plane');
 like($told, qr/index scan bypassed.*index scan needed/s, 'few pages: VACUUM does not put them off again');
 is_cut('plane', 'few pages');
 
-# A failure to move pages is reported, leaves no lock, and does not keep VACUUM from the next mesh.
-# Both protocols are tried; one of them releases the statement's plan with the transaction.
+# A failure to move pages is reported, leaves no lock, and does not keep VACUUM from the next mesh. Both
+# protocols are tried; one of them releases the statement's plan with the transaction.
 my $refused = qq{WARNING:  could not move pages of mesh "public.plane"
 DETAIL:  cannot change mesh table "plane" because of its index "sums"
 HINT:  Drop that index.};
@@ -138,7 +138,7 @@ sql('DROP INDEX sums');
 is(told('VACUUM plane'), '', 'without the index: no error');
 is_cut('plane', 'without the index');
 
-# Damage is not VACUUM's concern.
+# Damage does not concern VACUUM.
 spread('plane');
 sql('CREATE TABLE kept AS SELECT * FROM plane WHERE code = -1');
 sql('UPDATE plane SET page = (SELECT page FROM plane WHERE code >= 0 LIMIT 1) WHERE code = -1');
@@ -151,7 +151,7 @@ sql('ALTER TABLE away RENAME TO plane_vertices');
 is(told('VACUUM plane'), '', 'all mended: no error');
 is_cut('plane', 'all mended');
 
-# Cancelled at any moment, it leaves no lock, and the mesh is the same.
+# Cancelled at any moment, it leaves no lock and the same mesh.
 my $in_time = 0;
 for my $n (1 .. $cancels)
 {
@@ -166,7 +166,7 @@ for my $n (1 .. $cancels)
 }
 diag("$in_time of $cancels in time");
 is(told('VACUUM plane'), '', 'after all: no error');
-# the last of the cancelled ones may have left less than what is worth moving
+# the last of the cancelled ones may have left too little to be worth moving
 spread('plane');
 sql('VACUUM plane');
 is_cut('plane', 'after all');

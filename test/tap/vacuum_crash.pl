@@ -23,7 +23,7 @@ $node->safe_psql('postgres', q{SELECT setseed(0.5);
 my $fresh = mesh_pages($node, 'postgres', 'plane');
 my $content = mesh_content($node, 'postgres', 'plane');
 
-# What spreads the rows over the table is an UPDATE, the shortest way.
+# An UPDATE is the shortest way to spread the rows over the table.
 my @statements = ('UPDATE plane SET part = part', 'VACUUM plane') x 100;
 for my $n (1 .. $kills)
 {

@@ -109,7 +109,7 @@ using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_
 TYPED_TEST_SUITE(AttributeChange, Dimensions);
 
 TYPED_TEST(AttributeChange, OneByOneFromNoneToManyAndBack) {
-    // Of vertices, of points equal to one, and of those that wait.
+    // Attributes of vertices, of points equal to one, and of waiting points.
     constexpr int D = TypeParam::value;
     for (const int kind : {0, 1, 2})
         for (const std::size_t cache : {little, ample}) {
@@ -170,8 +170,8 @@ TYPED_TEST(AttributeChange, NamesGoWithTheirAttributes) {
 }
 
 TYPED_TEST(AttributeChange, ManyLeaveTheSimplexPages) {
-    // A mesh of format 3 becomes one of format 4. Its first pages are filled by guess: a larger one
-    // has nearly as few as a new one.
+    // A mesh of format 3 becomes one of format 4. Its first pages are filled by guess, so only a
+    // larger mesh has nearly as few pages as a new one.
     constexpr int D = TypeParam::value;
     for (const std::size_t cache : {little, ample}) {
         Changing<D> changing(60, cache, false);

@@ -1,4 +1,4 @@
-// Attributes in pages of their own: against a map, over a store in memory.
+// Attributes in pages of their own: compared with a map, over a store in memory.
 #include "attributes/attribute_pages.hpp"
 #include "attributes/attribute_reader.hpp"
 #include "mesh/page_format.hpp"
@@ -21,7 +21,7 @@ template <int D> Domain<D> unit_domain() {
     return {lower, upper};
 }
 
-/// Owners in a domain of 1 in which nothing is special, or many share a code. Vertices are
+/// Owners in a domain of extent 1 where nothing is special, or many share a code. Vertices are
 /// anywhere; simplices have corners near each other, which they share with others.
 template <int D, int K> class Owners {
 public:
@@ -115,7 +115,7 @@ public:
         pages_.flush();
         pages_.forget();
     }
-    /// What readers find is what has been put.
+    /// Readers find the stored values.
     void verify(std::size_t bytes = 1 << 16) {
         const auto is_same = [](double a, double b) {
             return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
@@ -194,7 +194,7 @@ TYPED_TEST(Attributes, AreFoundWhereTheyWerePut) {
             for (const bool crowded : {false, true}) {
                 Model<D, K> model(attributes, compressible);
                 Owners<D, K> owners(attributes, crowded);
-                for (int i = 0; i < 300; ++i) model.put(owners.next()); // in no order
+                for (int i = 0; i < 300; ++i) model.put(owners.next()); // in random order
                 std::vector<Owner<D, K>> round;
                 for (int i = 0; i < 900; ++i) round.push_back(owners.next());
                 model.put_in_order(round);
@@ -255,7 +255,7 @@ TYPED_TEST(Attributes, RoundsAlongTheCurveLeaveFullPages) {
     }
 }
 
-/// Pages are written if what they hold changes, and only these.
+/// Only pages whose contents change are written.
 TYPED_TEST(Attributes, WritesOnlyPagesThatChange) {
     constexpr int D = TypeParam::D, K = TypeParam::K;
     constexpr unsigned attributes = 100, changed = 40;
@@ -276,7 +276,7 @@ TYPED_TEST(Attributes, WritesOnlyPagesThatChange) {
     std::vector<std::uint32_t> all(attributes);
     for (std::uint32_t i = 0; i < attributes; ++i) all[i] = i;
     std::vector<double> values(attributes);
-    // As it is; then another value of one attribute, by all; then the same by its number.
+    // Unchanged; then another value of one attribute, for all; then the same by its number.
     for (const double step : {0.0, 1.0, 2.0, 3.0}) {
         pages.take_counters();
         for (const Owner<D, K> &owner : model.in_order(some)) {
@@ -297,7 +297,7 @@ TYPED_TEST(Attributes, WritesOnlyPagesThatChange) {
     }
 }
 
-/// A page with owners behind the beginning of the next one is not taken in.
+/// A page with owners beyond the beginning of the next one is rejected.
 TYPED_TEST(Attributes, AForgedNeighbourIsRefused) {
     constexpr int D = TypeParam::D, K = TypeParam::K;
     Model<D, K> model(3);
@@ -315,14 +315,14 @@ TYPED_TEST(Attributes, AForgedNeighbourIsRefused) {
         for (const Owner<D, K> &owner : all) {
             const std::uint64_t code = model.code(owner);
             const Key key = in_group(attribute_key<D, K>(owner, code), first_group<K>);
-            if (key < second->first) pages.erase(owner, code); // some are there twice
+            if (key < second->first) pages.erase(owner, code); // some are stored twice
         }
         pages.flush();
     };
     EXPECT_THROW(shrink(), Error);
 }
 
-/// Bytes of any kind are an error, or are read as something.
+/// Arbitrary bytes are an error, or can be read.
 TYPED_TEST(Attributes, DamageIsRefused) {
     constexpr int D = TypeParam::D, K = TypeParam::K;
     Model<D, K> model(3);
@@ -373,7 +373,7 @@ TYPED_TEST(Attributes, AMissingPageIsNoticed) {
     EXPECT_GT(missing, 50);
 }
 
-/// Each kind has pages of its own among those of the others.
+/// Each kind has pages of its own, separate from the others.
 template <int D> void kinds_are_apart() {
     MemoryHost memory;
     const Host host{*memory.table()};
@@ -384,10 +384,10 @@ template <int D> void kinds_are_apart() {
     std::map<Owner<D, D + 1>, double> of_labels, of_markers;
     const auto fill = [&]<int K>(AttributePages<D, K> &pages, std::map<Owner<D, K>, double> &known,
                                  int more) {
-        Owners<D, K> owners(K, false); // labels and markers have the same
+        Owners<D, K> owners(K, false); // labels and markers have the same ones
         for (int i = 0; i < 1000; ++i) known[owners.next()] = i + more;
         std::vector<double> values(40);
-        std::vector<Owner<D, K>> along; // the curve
+        std::vector<Owner<D, K>> along; // in the order of the curve
         for (const auto &[owner, value] : known) along.push_back(owner);
         const auto code = [&](const auto &owner) { return code_of<D, K>(domain, owner); };
         std::sort(along.begin(), along.end(),
@@ -431,7 +431,7 @@ TEST(AttributeKinds, AreApart) {
     kinds_are_apart<3>();
 }
 
-/// Where few have attributes, one who asks for all reads each page once.
+/// If few owners have attributes, asking for all owners reads each page once.
 TEST(AttributeKinds, ThoseWithoutAttributesCostNoReading) {
     Model<3, 4> model(1);
     Owners<3, 4> owners(1, false);
@@ -450,7 +450,7 @@ TEST(AttributeKinds, ThoseWithoutAttributesCostNoReading) {
     EXPECT_EQ(reader.pages_read(), model.pages().size());
 }
 
-/// A number that few have takes as many bits as it needs, and one more of those that have it not.
+/// A number that few have takes as many bits as it needs, and one more for each owner without it.
 TEST(AttributeKinds, NullTakesABit) {
     const auto bytes = [](bool some_are_null) {
         MemoryHost memory;

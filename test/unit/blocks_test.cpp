@@ -1,6 +1,6 @@
-// The block cache by itself, with a small type of data (support/ledger.hpp): placement, eviction,
-// splits and merges against a model in memory, with the invariants after each step; stored bytes
-// that are wrong; and whatever fails, at whatever moment.
+// The block cache alone, with a small type of data (support/ledger.hpp): placement, eviction,
+// splits and merges, compared with a model in memory, with the invariants after each step; wrong
+// stored bytes; and failures at any moment.
 #include "blocks/block_cache_code.hpp"
 #include "support/ledger.hpp"
 
@@ -24,7 +24,7 @@ using Model = std::map<std::pair<std::uint64_t, std::uint64_t>, std::uint32_t>;
 constexpr std::size_t block_bytes = EntryBlocks::slots * sizeof(Entry);
 constexpr std::size_t little = 6 * block_bytes, ample = 4096 * block_bytes;
 
-/// How keys are spread: over the curve, a few codes with many parts, in order.
+/// The distribution of keys: over the curve, a few codes with many parts, ascending.
 enum class Spread { even, parts, ascending };
 
 Key random_key(Random &random, Spread spread, std::uint64_t serial) {
@@ -43,7 +43,7 @@ std::uint32_t random_weight(Random &random) {
     return static_cast<std::uint32_t>(random() % (random() % 50 == 0 ? Entry::most_weight : 60));
 }
 
-/// A ledger beside the entries that it should have.
+/// A ledger, with the entries that it should have.
 class LedgerInChange {
 public:
     explicit LedgerInChange(std::size_t budget) : budget_(budget) {
@@ -61,7 +61,7 @@ public:
             ASSERT_EQ(ledger->check(), nullptr) << "entry " << i;
         }
     }
-    /// Every other one of the first n along the curve, or n anywhere.
+    /// Removes every second one of the first n along the curve, or n anywhere.
     void remove_some(int n, bool along_the_curve) {
         for (int i = 0; i < n && !model.empty(); ++i) {
             auto it = model.begin();
@@ -71,7 +71,7 @@ public:
             ASSERT_EQ(ledger->check(), nullptr) << "entry " << i;
         }
     }
-    /// What is stored, read by another cache.
+    /// Reads the stored pages with another cache.
     void verify() {
         ledger->flush();
         ASSERT_EQ(ledger->check(), nullptr);
@@ -177,7 +177,7 @@ protected:
         change.ledger->flush();
         memory.restore(change.memory);
     }
-    /// The pages' second one, which begins where the first one ends.
+    /// The second page, which begins where the first one ends.
     MemoryHost::Page &second() { return std::next(memory.pages.begin())->second; }
     Key *interval(MemoryHost::Page &page) { return reinterpret_cast<Key *>(page.bytes()); }
     std::string fault_of_reading() {
@@ -195,7 +195,7 @@ protected:
 };
 
 TEST_F(Damaged, PagesThatOverlapAreFound) {
-    interval(memory.pages.begin()->second)[1].code += 1; // the first one's upper key
+    interval(memory.pages.begin()->second)[1].code += 1; // the first page's upper key
     EXPECT_EQ(fault_of_reading(), "Two pages own the same part of the curve.");
 }
 
@@ -235,7 +235,7 @@ TEST_F(Damaged, AnEntryInAnotherPageIsFoundBeforeABorderIsDrawn) {
 
 // ---- Whatever fails ---------------------------------------------------------------------
 
-/// A piece of work that splits, evicts, loads, merges; what came of it.
+/// Work that splits, evicts, loads and merges, and how it ended.
 enum class End { done, host_failed, no_memory };
 End work(MemoryHost &memory) {
     const Host host = memory.host();

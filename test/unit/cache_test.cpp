@@ -46,7 +46,7 @@ abacus_counters insert(Mesh &mesh, const std::vector<Point<2>> &points,
     return cache.counters;
 }
 
-/// Makes all links of the stored pages say nothing of their neighbours.
+/// Removes the neighbours' keys from all links of the stored pages.
 void forget_links(Mesh &mesh) {
     for (auto &[key, page] : mesh.host.pages) {
         PageEditor editor(page, mesh.header);
@@ -98,11 +98,11 @@ TEST(Probing, ServesLinksWithoutAKey) {
                               (s.corner[0][1] + s.corner[1][1] + s.corner[2][1]) / 3};
         ASSERT_EQ(open.locate(middle, found), ABACUS_OK) << open.error.detail;
         EXPECT_EQ(found.id[0], s.id[0]);
-        // A place may be found in a page by itself; not so what lies across its facets.
+        // A page alone may be enough to find a place, but not what lies across its facets.
         for (int facet = 0; facet < 3; ++facet)
             ASSERT_NE(open.walk(s, facet, found), ABACUS_ERROR) << open.error.detail;
     }
-    // A page that was evicted is found again by the key it had; the others are probed for.
+    // An evicted page is found again by its former key; the others need probing.
     const abacus_counters &counters = open.counters();
     EXPECT_GT(counters.quick_probes, 0u);
     EXPECT_GT(counters.ray_probes, 0u);
@@ -135,9 +135,8 @@ TEST(Cache, TellsALinkToTheWrongPlaceFromAMissingOne) {
     EXPECT_EQ(open.error.kind, ABACUS_ERROR_CORRUPTED);
 }
 
-/// Moves the border between two pages that follow one another up among the keys of the second,
-/// whose simplices stay where they are; and returns a point for each of them that its page still
-/// owns.
+/// Moves the border between two consecutive pages up among the keys of the second, whose simplices
+/// stay where they are. Returns a point for each of those that its page still owns.
 std::vector<Input> forge_border(Mesh &mesh, const abacus_key &first, const abacus_key &second) {
     MemoryHost::Pages &pages = mesh.host.pages;
     PageEditor before(pages.at(first), mesh.header), page(pages.at(second), mesh.header);
@@ -214,7 +213,7 @@ TEST(Cache, SplitsACodeIntoParts) {
         const auto parts = std::count_if(mesh.host.pages.begin(), mesh.host.pages.end(),
                                          [](const auto &page) { return page.first.part != 0; });
         EXPECT_GT(parts, 3);
-        // Walking finds simplices by their code, whatever the part.
+        // Walking finds simplices by their code, regardless of the part.
         OpenMesh open(mesh, cache);
         const auto all = mesh.simplices(false);
         for (std::size_t i = 0; i < all.size(); i += 7) {
@@ -234,7 +233,7 @@ TEST(Cache, CarriesAttributesThroughPagesBitForBit) {
             input.id = std::bit_cast<std::int64_t>(random());
             for (int i = 0; i < attributes; ++i) {
                 std::uint64_t bits = random();
-                // NaNs with payloads, infinities and both zeros among them.
+                // NaNs with payloads, infinities and both zeros.
                 if (bits % 3 == 0) bits |= 0x7ff8ull << 48;
                 if (bits % 7 == 0) bits = (bits & 1) << 63 | (bits & 2 ? 0x7ffull << 52 : 0);
                 input.attributes.push_back(std::bit_cast<double>(bits));
@@ -268,32 +267,32 @@ TEST(Cache, KeepsToItsBudget) {
         ASSERT_EQ(mesh.stage(points), ABACUS_OK);
         mesh.host.peak_bytes = 0;
         ASSERT_EQ(mesh.build(), ABACUS_OK);
-        // One operation may load more, and is not interrupted for that.
+        // One operation may load more, and is not interrupted because of that.
         EXPECT_LE(mesh.header.counters.peak_bytes, budget + (512 << 10));
         // Arrays and tables grow by steps.
         EXPECT_LE(mesh.host.peak_bytes, budget + budget / 2 + (1024 << 10));
         EXPECT_EQ(mesh.host.bytes, 0u);
-        // Points that are there already change no page, but load them all.
+        // Points that are already there change no page, but load them all.
         ASSERT_EQ(mesh.insert(points), ABACUS_OK);
         EXPECT_LE(mesh.header.counters.peak_bytes, budget + (512 << 10));
     }
 }
 
 TEST(Cache, InTheLastRoundFinishedBlocksLeave) {
-    // All would take some 45 MB, the rounds before the last one less than 2.
+    // All pages would take some 45 MB, the rounds before the last one less than 2.
     Mesh mesh(0, std::size_t{1} << 30);
     ASSERT_EQ(mesh.insert(number(unit_square_points(400000, 12))), ABACUS_OK);
     const abacus_counters &c = mesh.header.counters;
     EXPECT_LE(c.peak_bytes, 20u << 20);
     EXPECT_GE(c.peak_bytes, 16u << 20);
-    EXPECT_LE(c.loads, c.stores / 4); // hardly any is needed again
+    EXPECT_LE(c.loads, c.stores / 4); // hardly any page is needed again
     EXPECT_EQ(mesh.header.facts.census.simplices + mesh.header.facts.census.ghosts,
               2 * mesh.header.facts.census.vertices - 2);
 }
 
 TEST(Cache, CountsWhatItDoes) {
     Mesh mesh(0, 100 << 10);
-    // Without vertex pages between: all calls are for simplex pages.
+    // Without vertex pages in between: all calls are for simplex pages.
     ASSERT_EQ(mesh.insert(number(unit_square_points(8000, 11))), ABACUS_OK);
     const MemoryHost::Calls &calls = mesh.host.calls;
     const abacus_counters &c = mesh.header.counters;
@@ -337,11 +336,11 @@ TEST(Cache, KeepsAnOverfullBlockUntilTheOperationIsOver) {
         for (auto &vertex : v)
             vertex = cache.create_vertex({unit(random), unit(random)}, 0, nullptr);
         made.push_back(cache.create(v));
-        for (int i = 0; i < 3; ++i) // its own neighbour: it has a page's links
+        for (int i = 0; i < 3; ++i) // a link to itself: it has a page's links
             cache.point_at(made.back(), i, make_link(made.back(), i));
     };
     while (made.size() < cache.capacity()) make();
-    EXPECT_FALSE(cache.settle(0)); // as many as it takes
+    EXPECT_FALSE(cache.settle(0)); // grows as needed
     while (made.size() < n) make();
     EXPECT_EQ(cache.cached_blocks(), 1u); // all are in slots of their own block
     for (const Handle h : made) EXPECT_TRUE(cache.is_home(h));
@@ -374,14 +373,14 @@ TEST(Cache, MovesSimplicesHomeAndTellsWhere) {
     EXPECT_TRUE(cache.settle(1ull << 61));
     EXPECT_FALSE(cache.settle(0));
     EXPECT_GT(cache.cached_blocks(), 4u);
-    // A handle from before tells the new place, unless its slot is used again.
+    // A handle from before leads to the new place, unless its slot has been used again.
     std::size_t told = 0;
     for (const auto &[handle, vertices] : made) {
         const Handle now = cache.follow(handle);
         told += now != no_handle && cache.simplex(now).vertex == vertices;
     }
     EXPECT_GT(told, made.size() / 2);
-    // All are there, at home and linked as before.
+    // All are present, at home and linked as before.
     std::size_t found = 0;
     for (Key key = first_key; key < end_key;)
         key = cache.visit(key, [&](Handle h) {
@@ -414,7 +413,7 @@ TEST(Cache, TakesAHubLargerThanItself) {
     points.push_back({0, 0});
     EXPECT_EQ(mesh.positions(), cgal_simplices<2>(points));
     EXPECT_EQ(mesh.host.violations, std::vector<std::string>{});
-    // And afterwards it goes on with what its budget allows.
+    // Afterwards it continues within its budget.
     ASSERT_EQ(mesh.stage({{n + 1, {0.1, 0.2}}, {n + 2, {0.1, 0.3}}}), ABACUS_OK);
     ASSERT_EQ(mesh.build(), ABACUS_OK) << mesh.error.message;
     EXPECT_EQ(mesh.check(), std::vector<std::string>{});

@@ -1,4 +1,4 @@
-// Positions in chains: against walking, in memory and far beyond it.
+// Positions in chains: compared with walking, in memory and far beyond it.
 #include "sort/chain_rank.hpp"
 #include "support/memory_host.hpp"
 #include "support/point_sets.hpp"

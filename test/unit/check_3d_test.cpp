@@ -1,5 +1,4 @@
-// abacus_check on meshes of tetrahedra: nothing wrong with a sound one, and a fault for
-// every flipped bit.
+// abacus_check on meshes of tetrahedra: a sound one has no fault, and every flipped bit is a fault.
 #include "support/oracle.hpp"
 #include "support/staged_points.hpp"
 
@@ -45,7 +44,7 @@ TEST(CheckInSpace, FindsNothingInSoundMeshes) {
 }
 
 TEST(CheckInSpace, LoadsPagesAFewTimesWhereVerticesHaveMostOfThem) {
-    // An arc and its axis: every edge of the one with every edge of the other is a tetrahedron,
+    // An arc and its axis: every edge of the one with every edge of the other makes a tetrahedron,
     // so each vertex of the arc is in as many pages as the axis has vertices.
     constexpr int n = 400;
     std::vector<Point<3>> points;

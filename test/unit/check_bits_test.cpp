@@ -1,4 +1,4 @@
-// Every bit of the stored pages means something: abacus_check finds it flipped.
+// Every bit of the stored pages matters: abacus_check finds it when flipped.
 #include "support/patient.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
-// abacus_check finds every kind of damage. A sound mesh is built, one thing in it is
-// spoilt, and there has to be a fault.
+// abacus_check finds every kind of damage. Each test builds a sound mesh, spoils one thing in it,
+// and expects a fault.
 #include "geometry/predicates.hpp"
 #include "points/vertex_page.hpp"
 #include "support/patient.hpp"
@@ -14,8 +14,8 @@
 namespace abacus::test {
 namespace {
 
-/// Is the quadrilateral around the edge opposite corner i of simplex s one that can be
-/// flipped? Then the two triangles after the flip.
+/// Whether the quadrilateral around the edge opposite corner i of simplex s can be flipped; if so,
+/// sets the two triangles after the flip.
 bool flip(const PageEditor &page, int s, int i, std::array<int, 3> &first,
           std::array<int, 3> &second) {
     const int n = page.neighbour(s, i);
@@ -261,7 +261,7 @@ TEST(Check, FindsPagesMissingOrOutOfPlace) {
     big.expect_fault("an overlap above", "interval", border(0, 1));
     big.expect_fault("a gap above", "interval", border(0, -1));
     big.expect_fault("a border in another place", "key", [&] {
-        // Both pages agree about it, but triangles lie on the wrong side.
+        // Both pages agree, but triangles lie on the wrong side.
         const auto at = std::next(pages.begin(), 4);
         const Key lower = at->first, moved{lower.code + (lower.code >> 4), 0};
         PageEditor before(std::prev(at)->second, big.mesh.header),

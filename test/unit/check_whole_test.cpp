@@ -1,5 +1,5 @@
-// abacus_check on meshes that are sound across every facet, but overlap themselves: no
-// insertion makes them, so they are wired by hand.
+// abacus_check on meshes that are sound across every facet, but overlap themselves. No insertion
+// makes them, so they are built by hand.
 #include "support/mesh_in_change.hpp"
 
 #include <gmock/gmock.h>
@@ -15,7 +15,7 @@ namespace {
 template <int D> using Vertices = std::array<int, D + 1>;
 
 /// The faults of a mesh of these simplices, given by points in positive order, with a ghost on
-/// every facet that only one of them has.
+/// every facet that belongs to only one of them.
 template <int D>
 std::vector<std::string> faults(const std::vector<Point<D>> &points,
                                 const std::vector<Vertices<D>> &simplices) {

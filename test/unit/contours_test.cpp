@@ -1,4 +1,4 @@
-// Contours: pieces of one triangle, lines of meshes whatever the memory is, rings, damaged pages.
+// Contours: pieces of one triangle, lines of meshes for any memory, rings, damaged pages.
 #include "query/levels/contour_rings.hpp"
 #include "query/levels/contours.hpp"
 #include "support/point_sets.hpp"
@@ -56,7 +56,7 @@ double area(const std::vector<Point<2>> &ring) {
 
 // ---- One triangle -----------------------------------------------------------------------
 
-/// Along an edge bands follow one another, each from where the one before ends.
+/// The bands along an edge follow one another, each from where the one before ends.
 TEST(ContourCut, BandsFollowOneAnotherAlongALine) {
     const abacus_contouring how = levels_of(1);
     ContourLevels levels(how);
@@ -347,7 +347,7 @@ TEST(Contours, WithoutRoomAreCountedAndNotWritten) {
         mesh.host.expected_bytes = 0;
         const std::uint64_t before = mesh.host.spooled_bytes;
         contours(mesh, levels_of(1e-4, 0, bands), {}, 0);
-        // What is expected is less than what is written.
+        // Less is expected than is written.
         const double expected = mesh.host.expected_bytes;
         EXPECT_GT(expected, 1e6);
         EXPECT_LT(expected, static_cast<double>(mesh.host.spooled_bytes - before));

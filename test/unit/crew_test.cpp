@@ -1,4 +1,4 @@
-// Pages that threads ask for at the session's desk.
+// Pages that threads request at the session's desk.
 #include "host/crew.hpp"
 #include "keys/key.hpp"
 #include "support/point_sets.hpp"
@@ -13,7 +13,7 @@
 namespace abacus::test {
 namespace {
 
-/// Whatever is in a page that is to be found, bytes of a former one perhaps.
+/// Arbitrary contents in a page to be found, perhaps bytes of a former one.
 abacus_page left_over() {
     abacus_page page;
     std::memset(&page, 0xff, sizeof page);
@@ -53,7 +53,7 @@ TEST(Crew, FindsPagesWhateverWasThereBefore) {
     EXPECT_TRUE(crew.run(2, 20, work));
 }
 
-/// Stores pages, each more than once, and says where it was put.
+/// Stores pages, each more than once, and reports where they were put.
 class Storing final : public Crew::Work {
 public:
     explicit Storing(bool fails = false) : fails_(fails) {}

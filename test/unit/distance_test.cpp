@@ -1,4 +1,4 @@
-// Distances compared against rational arithmetic, on input that makes a filter fail.
+// Distances, compared with rational arithmetic, on input that makes a filter fail.
 #include "geometry/distance.hpp"
 
 #include <CGAL/Exact_rational.h>

@@ -1,5 +1,5 @@
-// Meshes that grow out of their domain get another one, when it is worth it; and stay the mesh
-// of their points.
+// Meshes that outgrow their domain get another one if it is worth it, and remain the mesh of their
+// points.
 #include "keys/domain_of.hpp"
 #include "support/point_model.hpp"
 
@@ -45,7 +45,7 @@ protected:
                   ABACUS_OK);
         return fits == 1;
     }
-    /// Pages that begin inside of a code.
+    /// Pages that begin within a code.
     static std::size_t crowded(const MeshOf<D> &mesh) {
         return static_cast<std::size_t>(
             std::count_if(mesh.host.pages.begin(), mesh.host.pages.end(),
@@ -74,7 +74,7 @@ TYPED_TEST(OtherDomain, ForManyPointsOutside) {
             for (int round = 0; round < 4; ++round, edge *= -7) { // to and fro
                 auto points = this->fresh(500, 0, edge);
                 const auto old = model.points();
-                for (std::size_t i = 0; i < old.size(); i += 40) { // equal to what is there
+                for (std::size_t i = 0; i < old.size(); i += 40) { // equal to existing points
                     points.push_back(old[i]);
                     points.back().id = -std::int64_t(i) - 1000 * round;
                 }
@@ -212,8 +212,7 @@ TYPED_TEST(OtherDomain, FromOneWhereAnAxisIsFarFromZero) {
     }
 }
 
-// An insertion of a few points into a large mesh does not wait until all of it has other
-// keys.
+// Inserting a few points into a large mesh does not wait until the whole mesh has new keys.
 TYPED_TEST(OtherDomain, OfALargeMeshNotForAFewPoints) {
     constexpr int D = TypeParam::value;
     MeshOf<D> mesh(1);
@@ -249,7 +248,7 @@ TYPED_TEST(OtherDomain, NotAroundOnePointFarAway) {
     }
 }
 
-// A mesh that begins with it recovers by itself when it is small.
+// A small mesh that begins with it recovers by itself.
 TYPED_TEST(OtherDomain, AfterPointsThatCameToOneCode) {
     constexpr int D = TypeParam::value;
     MeshOf<D> mesh(1);
@@ -269,8 +268,8 @@ TYPED_TEST(OtherDomain, AfterPointsThatCameToOneCode) {
     model.expect(mesh);
 }
 
-// A given domain that does not fit is found by a look into a few pages; so is that of a mesh whose
-// point far away has gone.
+// Reading a few pages shows that a given domain does not fit, or that of a mesh whose distant point
+// has gone.
 TYPED_TEST(OtherDomain, OnDemandWhereItHasNeverFitted) {
     constexpr int D = TypeParam::value;
     MeshOf<D> mesh(1);
@@ -299,7 +298,7 @@ TYPED_TEST(OtherDomain, OnDemandWhereItHasNeverFitted) {
     EXPECT_EQ(done, 0);
 }
 
-// Where no scale would do, none is tried again and again.
+// If no scale would help, the search is not repeated again and again.
 TYPED_TEST(OtherDomain, NotWhereNoneIsBetter) {
     constexpr int D = TypeParam::value;
     MeshOf<D> mesh(1);

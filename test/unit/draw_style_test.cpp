@@ -1,5 +1,5 @@
-// How pictures are drawn: colours, light, contours, captions, nothing behind; and that windows side
-// by side fit.
+// How pictures are drawn: colours, light, contours, captions, nothing in the background; and
+// adjacent windows fit together.
 #include "draw/canvas.hpp"
 #include "draw/captions.hpp"
 #include "support/image.hpp"
@@ -38,7 +38,7 @@ double east(double x, double) { return x; }
 double north(double, double y) { return y; }
 double middle(double, double) { return 0.5; }
 
-/// As bright as it looks (CIE L*, from 0 to 100).
+/// The perceived brightness (CIE L*, from 0 to 100).
 double brightness(const Color &c) {
     const double y = 0.2126 * c.red + 0.7152 * c.green + 0.0722 * c.blue;
     return y > 216.0 / 24389 ? 116 * std::cbrt(y) - 16 : y * 24389 / 27;
@@ -128,7 +128,7 @@ TEST(Light, DoesNotDependOnTheRangeOfTheColours) {
 
 TEST(Contours, AreWhereTheValueIs) {
     abacus_drawing drawing = square(100);
-    drawing.range[1] = 2; // none of the mesh has the values above 1
+    drawing.range[1] = 2; // no part of the mesh has values above 1
     const Image plain = draw(drawing, east);
     drawing.contour_interval = 0.25;
     const Image lines = draw(drawing, east);

@@ -1,4 +1,4 @@
-// Pictures: what they show, and that nothing a mesh can hold upsets them.
+// Pictures: what they show; and nothing that a mesh can contain breaks them.
 #include "draw/canvas.hpp"
 #include "support/image.hpp"
 #include "support/staged_points.hpp"
@@ -114,7 +114,7 @@ TEST_F(Draw, TakesTheRangeFromTheWindow) {
 }
 
 TEST_F(Draw, TakesTheRangeOfWhatIsSeen) {
-    // The box of this triangle meets the window, its corner reaches it, and it has nothing inside.
+    // The box of this triangle meets the window, its corner reaches it, but no part is inside.
     Extent extent(square_drawing(10));
     extent.add({{{2, 0}, {2, 2}, {0, 2}}, {7, 7, 7}});
     EXPECT_TRUE(std::isnan(extent.low()));
@@ -138,7 +138,7 @@ TEST_F(Draw, GivesAPlaceOneColourInAllWindowsOfARange) {
         for (int y = 0; y < 64; ++y)
             for (int x = 0; x < 32; ++x) ASSERT_EQ(part(x, y), all(x + 32 * right, y));
     }
-    // What lies beyond has the last colour, however far.
+    // Everything beyond has the last colour, however far.
     const Palette palette = Palette::terrain();
     EXPECT_EQ(all(0, 60), encode(palette(0)));
     const double most = std::numeric_limits<double>::max();
@@ -224,7 +224,7 @@ TEST_F(Draw, IsDeterministic) {
 }
 
 TEST_F(Draw, ClipsToTheWindow) {
-    // One picture, and the same cut out of the middle of a larger one.
+    // One picture, and the same part of a larger one.
     const auto height = [](double x, double y) { return x * y; };
     abacus_drawing whole = square_drawing(60);
     whole.height = 45; // no edge at 45 degrees, where rounding chooses the pixels
@@ -265,7 +265,7 @@ TEST_F(Draw, SurvivesTheRangeOfDoubles) {
             drawing.lower[0] = drawing.upper[0]; // whole mesh
             draw(drawing, triangles);
             draw(drawing, {triangles[1]});
-            drawing.height = 0; // as its shape tells
+            drawing.height = 0; // from its shape
             draw(drawing, {triangles[1]});
         }
 }
@@ -357,7 +357,7 @@ TEST_F(Draw, LeavesOutLongTriangles) {
     }
 }
 
-// A large window is read page by page, and the pages of a small one are searched for.
+// A large window is read page by page; for a small one, the pages are searched.
 TEST_F(Draw, HasInAWindowWhatIsThereInALargerOne) {
     Input<2> input = with_ids<2>(points<2>(Kind::uniform, 20000));
     for (auto &p : input) p.attributes = {std::bit_cast<std::uint64_t>(p.point[0] * p.point[1])};
@@ -403,7 +403,7 @@ TEST_F(Draw, HasInAWindowWhatIsThereInALargerOne) {
 TEST_F(Draw, LightComesFromTheNorthWest) {
     abacus_drawing drawing = square_drawing(64);
     drawing.exaggeration = 0.5;
-    // A pyramid, on equal tints at the four places looked at.
+    // A pyramid; the four places tested have equal tints.
     const auto triangles = grid(
         64, [](double x, double y) { return std::min(std::min(x, 1 - x), std::min(y, 1 - y)); });
     const Image image = draw(drawing, triangles);
@@ -499,7 +499,7 @@ TEST_F(Draw, EveryWayOutReleasesItsMemory) {
     abacus_drawing drawing = square_drawing(200);
     drawing.exaggeration = 1;
     const auto triangles = grid(90, [](double x, double y) { return std::sin(99 * x * y); });
-    // Each allocation in turn fails; TearDown looks for leaks.
+    // Each allocation in turn fails; TearDown checks for leaks.
     int failures = 0;
     for (bool done = false; !done; ++failures) {
         memory.fail_resize_at(failures + 1);

@@ -1,5 +1,4 @@
-// Points come and go, in any number at a time: the mesh is always that of the points
-// there are.
+// Points come and go, in any number at a time: the mesh is always that of the present points.
 #include "support/point_model.hpp"
 #include "support/sanitized.hpp"
 
@@ -41,7 +40,7 @@ protected:
             points.push_back({next_id, point(kind), {double(next_id) / 4}});
         return points;
     }
-    /// Some of the points there are, a few of them under another id or twice.
+    /// Some of the present points, a few of them under another id or twice.
     std::vector<InputOf<D>> some(const PointModel<D> &model, std::size_t n) {
         std::vector<InputOf<D>> all = model.points();
         std::shuffle(all.begin(), all.end(), random);
@@ -84,8 +83,8 @@ TYPED_TEST(Edit, KeepsTheMeshOfThePointsThereAre) {
                 }
                 default: {
                     auto points = this->some(model, step % 20 == 19 ? ~std::size_t(0) : n);
-                    points.push_back({0, this->point(0), {0.}}); // nearly always none
-                    // Of the same id and place only one order is defined: that of the rows.
+                    points.push_back({0, this->point(0), {0.}}); // nearly always not there
+                    // With the same id and place only one order is defined: that of the rows.
                     std::uint64_t deleted = 0;
                     const std::uint64_t expected = model.remove(points);
                     ASSERT_EQ(mesh.remove(points, deleted), ABACUS_OK) << mesh.error.detail;
@@ -99,7 +98,7 @@ TYPED_TEST(Edit, KeepsTheMeshOfThePointsThereAre) {
 }
 
 TYPED_TEST(Edit, PutsPointsInThePlaceOfOthers) {
-    // Beside points that are kept, that wait, and that go; also where all are on a line or plane.
+    // Beside points that stay, that wait, and that go; also when all are on a line or plane.
     constexpr int D = TypeParam::value;
     const std::size_t sizes[] = {1, 2, 10, 100, D == 2 ? 3000 : 1000};
     int refused = 0, taken = 0;
@@ -185,7 +184,7 @@ TYPED_TEST(Edit, CollapsesAndGrowsAgain) {
         ASSERT_EQ(mesh.insert(beside), ABACUS_OK);
         EXPECT_GT(mesh.header.facts.census.vertices, 0u);
         model.expect(mesh);
-        // Alone, then with some of the others, before and after it in the order.
+        // Alone, then with some of the others before and after it.
         auto gone = beside;
         if (round > 0) {
             const auto more = this->some(model, 100);
@@ -242,7 +241,7 @@ TYPED_TEST(Edit, ExactlyTakesNoOtherPointOfThePlace) {
 }
 
 TYPED_TEST(Edit, TakesWaitingPointsOfOnePlaceInLinearTime) {
-    // With the square of their number it would take a minute.
+    // Quadratic time would take a minute.
     constexpr int D = TypeParam::value;
     constexpr int n = 200000;
     MeshOf<D> mesh;
@@ -281,13 +280,13 @@ TYPED_TEST(Edit, RefusesDamagedRepeatedPoints) {
         EXPECT_EQ(mesh.error.kind, ABACUS_ERROR_CORRUPTED);
         EXPECT_EQ(mesh.host.bytes, 0u);
     };
-    // A page begins before the last points of the one before it.
+    // A page begins before the last points of the previous one.
     expect_refused([](MeshOf<D> &mesh) {
         auto second = mesh.host.repeated_pages.extract(std::next(mesh.host.repeated_pages.begin()));
         second.key().part -= 5;
         mesh.host.repeated_pages.insert(std::move(second));
     });
-    // There are more than there should be.
+    // There are more than counted.
     expect_refused([](MeshOf<D> &mesh) { mesh.header.facts.census.duplicates = 7; });
 }
 
@@ -358,7 +357,7 @@ TYPED_TEST(Edit, EveryHostCallMayFail) {
         ASSERT_EQ(sound.insert(points), ABACUS_OK);
     }
     const auto all = model.points();
-    std::vector<InputOf<D>> flat = all; // and as many as span nothing
+    std::vector<InputOf<D>> flat = all; // and the same number of points that span nothing
     for (auto &p : flat) p.point[D - 1] = p.point[0];
     MeshOf<D> waiting(1, 40 << 10);
     ASSERT_EQ(waiting.insert(flat), ABACUS_OK);

@@ -1,4 +1,4 @@
-// Sums without rounding: against rational arithmetic, in any order.
+// Sums without rounding: compared with rational arithmetic, in any order.
 #include "geometry/exact_sum.hpp"
 
 #include <CGAL/Exact_rational.h>
@@ -24,7 +24,7 @@ double sum_of(const std::vector<double> &summands) {
 
 Rational size_of(const Rational &x) { return x < 0 ? Rational(-x) : x; }
 
-/// No double is nearer to the sum, and of two that are as near it is the even one.
+/// No double is nearer to the sum, and if two are equally near, it is the even one.
 void expect_nearest(const std::vector<double> &summands) {
     Rational sum = 0;
     for (const double x : summands) sum += Rational(x);
@@ -82,7 +82,7 @@ TEST(ExactSum, HasNoLimits) {
     EXPECT_EQ(sum_of({-most, -most}), -infinity);
     EXPECT_EQ(sum_of({1, infinity, 5}), infinity);
     EXPECT_TRUE(std::isnan(sum_of({infinity, -infinity})));
-    // Ties, and what just breaks one.
+    // Ties, and sums that just break one.
     EXPECT_EQ(sum_of({1, 0x1p-53}), 1);
     EXPECT_EQ(sum_of({1, 0x1p-52, 0x1p-53}), 1 + 0x1p-51);
     EXPECT_EQ(sum_of({1, 0x1p-53, least}), 1 + 0x1p-52);

@@ -1,4 +1,4 @@
-// Vertices and edges of windows, each once: against brute force over all simplices.
+// Vertices and edges of windows, each once: compared with brute force over all simplices.
 #include "query/scan/face_scan.hpp"
 #include "support/point_sets.hpp"
 #include "support/sanitized.hpp"
@@ -119,7 +119,7 @@ TEST(Faces, OfMeshesPinchedAtVerticesAndEdges) {
     expect_faces_of_pinched<3>();
 }
 
-/// A value of each kind, most of them near the first coordinate.
+/// A value of one of several kinds, mostly near the first coordinate.
 double value_of(const Point<2> &p, std::size_t n) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     const double odd[] = {std::nan(""), 0.0, -0.0, infinity, -infinity, -p[0]};

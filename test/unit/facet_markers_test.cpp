@@ -45,7 +45,7 @@ public:
         ASSERT_EQ(mesh.load(t.vertices, t.simplices, memory, true, false, {}, facets), ABACUS_OK)
             << mesh.error.message << ' ' << mesh.error.detail;
     }
-    /// Marks a facet of about every `every`th simplex, or takes its marker away.
+    /// Marks a facet of about every `every`th simplex, or removes its marker.
     void mark(unsigned every, unsigned seed, bool takes_away = false) {
         std::mt19937_64 random(seed);
         auto simplices = mesh.simplices(false);
@@ -81,7 +81,7 @@ public:
         abacus_marking_close(marking);
         return status;
     }
-    /// All, or those with a marker.
+    /// All facets with markers, or those with this one.
     std::map<Facet, double> facets(double marker = std::nan("")) {
         std::map<Facet, double> result;
         abacus_facets *facets = nullptr;
@@ -113,7 +113,7 @@ public:
         EXPECT_EQ(mesh.host.bytes, 0u);
         EXPECT_TRUE(mesh.host.spools.empty());
     }
-    /// After a change: facets that are still there have kept theirs.
+    /// After a change: remaining facets have kept their markers.
     void expect_followed() {
         std::set<Facet> there;
         for (const abacus_simplex &simplex : mesh.simplices(false))
@@ -316,7 +316,7 @@ TYPED_TEST(Markers, ThatDifferOnTwoSidesAreAFault) {
     const Host host = mesh.mesh.host.host();
     const auto domain = domain_of<D>(mesh.mesh.header.facts.form);
     AttributePages<D, D + 1> markers(host, domain, D + 1, marker_group);
-    // One side of a facet becomes another one.
+    // Changes one side of a facet.
     AttributeScan<D, D + 1> scan(host, domain, D + 1, marker_group);
     ASSERT_TRUE(scan.fetch());
     scan.read();

@@ -1,5 +1,5 @@
-// Whatever fails, at whatever moment: a clean status, every byte given back, no further
-// call of the host, and the header of the caller as it was.
+// Failures at any moment: a clean status, all memory freed, no further call of the host, and the
+// caller's header unchanged.
 #include "support/located_places.hpp"
 #include "support/triangulations.hpp"
 
@@ -25,7 +25,7 @@ std::vector<Input> random_points(int n, unsigned seed) {
 /// A piece of work on a mesh, from opening to closing handles.
 struct Work {
     const char *name;
-    int staged, built; // points that the mesh starts with; points of these that are in it
+    int staged, built; // points that the mesh starts with; how many of them it contains
     std::function<abacus_status(Mesh &)> run;
 };
 
@@ -109,7 +109,7 @@ abacus_status load(Mesh &mesh, bool hole, std::size_t memory) {
     return mesh.load(t.vertices, t.simplices, memory);
 }
 
-/// The same as read(), where walks end in a hole.
+/// Like read(), on a mesh where walks end in a hole.
 abacus_status load_and_read(Mesh &mesh) {
     const abacus_header empty = mesh.header;
     abacus_status status = load(mesh, true, ample);
@@ -118,7 +118,7 @@ abacus_status load_and_read(Mesh &mesh) {
     return status;
 }
 
-/// Around the mesh, which gets another domain.
+/// Inserts around the mesh, which gets another domain.
 abacus_status insert_outside(Mesh &mesh) {
     auto points = random_points(700, 9);
     for (Input &p : points)
@@ -164,7 +164,7 @@ protected:
         ASSERT_EQ(sound_.stage({middle, points.end()}), ABACUS_OK);
     }
 
-    /// Runs the work on a copy of the mesh, `spoil`t before.
+    /// Runs the work on a copy of the mesh, after `spoil`.
     abacus_status run(const std::function<void(MemoryHost &)> &spoil) {
         Mesh mesh(1, little);
         mesh.host.restore(sound_.host);
@@ -216,7 +216,7 @@ TEST_P(Failure, OfAnyAllocation) {
 }
 
 TEST_P(Failure, OfACancelInAnyPhase) {
-    // Before anything, and at each report of progress.
+    // Before everything, and at each report of progress.
     EXPECT_EQ(run([](MemoryHost &host) { host.cancel(); }), ABACUS_HOST_ERROR);
     ASSERT_TRUE(succeeded(run([](MemoryHost &) {})));
     const std::uint64_t reports = calls_.progress;
@@ -227,8 +227,7 @@ TEST_P(Failure, OfACancelInAnyPhase) {
             };
         });
         // How often a long phase reports depends on the time. The cancel may come with the last
-        // report, when all is done, or not at all. After a cancel that is noticed no report
-        // follows.
+        // report, when everything is done, or not at all. After a noticed cancel no report follows.
         if (succeeded(status))
             EXPECT_LE(calls_.progress, report);
         else
@@ -240,7 +239,7 @@ INSTANTIATE_TEST_SUITE_P(Works, Failure, testing::ValuesIn(works),
                          [](const auto &info) { return std::string(info.param.name); });
 
 TEST(Failure, OfABuildLeavesWhatCanBeBuiltAgain) {
-    // A database undoes the pages together with the header; here they are put back.
+    // A database rolls back the pages together with the header; here the test restores them.
     Mesh mesh(1, little), whole(1, little);
     const auto points = random_points(2000, 9);
     ASSERT_EQ(mesh.stage(points), ABACUS_OK);

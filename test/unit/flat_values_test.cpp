@@ -1,4 +1,4 @@
-// Weights and gradients in simplices that are flat, or nearly so, against rational numbers.
+// Weights and gradients in flat or nearly flat simplices, compared with rational numbers.
 #include "geometry/flatness.hpp"
 #include "geometry/rational.hpp"
 #include "query/values/barycentric.hpp"
@@ -35,7 +35,7 @@ template <int D> std::array<std::array<Rational, D>, D> edges_of(const abacus_si
     return edges;
 }
 
-/// The weights of the corners but the first, by Cramer's rule; then that of the first.
+/// The weights of all corners except the first, by Cramer's rule; then that of the first.
 template <int D>
 std::array<Rational, D + 1> exact_weights(const abacus_simplex &simplex, const Point<D> &p) {
     const auto edges = edges_of<D>(simplex);
@@ -52,7 +52,7 @@ std::array<Rational, D + 1> exact_weights(const abacus_simplex &simplex, const P
     return weights;
 }
 
-/// Simplices of many sorts, positively oriented.
+/// Simplices of several kinds, positively oriented.
 template <int D> class Source {
 public:
     explicit Source(unsigned seed) : random_(seed) {}
@@ -88,7 +88,7 @@ private:
             double *const c = simplex.corner[i];
             for (int axis = 0; axis < D; ++axis) {
                 c[axis] = uniform(-1, 1);                           // any
-                if (sort == 1) c[axis] = slope[axis] * steps;       // on a line, but for rounding
+                if (sort == 1) c[axis] = slope[axis] * steps;       // on a line but for rounding
                 if (sort == 3) c[axis] += (axis + 1) * steps * 1e6; // a needle
                 if (sort == 4) c[axis] = slope[axis] * steps * size;
                 if (sort == 5) c[axis] = std::ldexp(c[axis], whole(2040) - 1020);
@@ -104,7 +104,7 @@ private:
     std::mt19937 random_;
 };
 
-/// Corners, middles of edges, and places about in the inside.
+/// Corners, middles of edges, and various places inside.
 template <int D> std::vector<Point<D>> places_in(const abacus_simplex &simplex, Source<D> &source) {
     std::vector<Point<D>> candidates(4), places;
     for (Point<D> &p : candidates) {
@@ -159,7 +159,7 @@ TYPED_TEST(FlatValues, WeightsAreThoseOfRationalNumbers) {
     EXPECT_GT(flat, 1000);
 }
 
-/// Beyond the facet of a corner, that has none of the place.
+/// Beyond the facet opposite a corner, the corner has no weight.
 TYPED_TEST(FlatValues, PlacesBeyondAFacetHaveNothingOfItsCorner) {
     constexpr int D = TypeParam::value;
     Source<D> source(2);
@@ -240,7 +240,7 @@ TEST(Flatness, IsAPropertyOfThePoints) {
     EXPECT_FALSE(is_flat_in_doubles<2>({&a, &b, &d}));
     const Point<3> u{0, 0, 0}, v{1, 0, 0}, w{0, 1, 0}, low{0.1, 0.1, 1e-30};
     EXPECT_FALSE(is_flat_in_doubles<3>({&u, &v, &w, &low}));
-    // Small and large are not flat.
+    // Very small or large simplices are not flat.
     for (const double size : {1e-320, 1e-100, 1e200, 1.7e308}) {
         const Point<3> o{-size, -size, -size}, x{size, -size, -size}, y{-size, size, -size},
             z{0, 0, size};

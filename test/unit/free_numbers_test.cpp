@@ -1,4 +1,4 @@
-// Numbers given back against a set, many and few, near each other and far; and their order.
+// Returned numbers, compared with a set: many and few, near and far; and their order.
 #include "host/free_numbers.hpp"
 #include "support/memory_host.hpp"
 
@@ -27,7 +27,7 @@ TEST_P(FreeNumbersUpTo, ComeBackOnceEach) {
             if (model.insert(number).second) free.add(number);
         }
         EXPECT_EQ(free.size(), model.size());
-        // all of them in every other round, else about half
+        // all of them in every second round, otherwise about half
         for (std::size_t left = round % 2 == 0 ? 0 : model.size() / 2; model.size() > left;) {
             ASSERT_FALSE(free.empty());
             ASSERT_EQ(model.erase(free.take()), 1u);
@@ -59,7 +59,7 @@ TEST(FreeNumbers, GoOnBehindTheLastAndAround) {
     for (const std::uint32_t number : {100u, 5000u, 300'000u}) free.add(number);
     EXPECT_EQ(free.take(), 100u);
     EXPECT_EQ(free.take(), 5000u);
-    free.add(10); // behind the last one: after all that are before it
+    free.add(10); // after the last one: beyond all numbers before it
     EXPECT_EQ(free.take(), 300'000u);
     EXPECT_EQ(free.take(), 10u);
     EXPECT_TRUE(free.empty());

@@ -1,5 +1,5 @@
-// Places located in the bytes of pages: the same answers as by a walk in memory, with few
-// searches of the host, wherever that has moved its pages.
+// Places located in the bytes of pages: the same answers as by a walk in memory, with few searches
+// of the host, even if it has moved its pages.
 #include "mesh/page_writer.hpp"
 #include "support/containment.hpp"
 #include "support/large_mesh.hpp"
@@ -52,13 +52,12 @@ TYPED_TEST(Glance, KnowsWherePagesAre) {
     const auto calls = mesh.host.calls;
     const auto loads = open.counters().loads;
     locate_some();
-    // Some pages are loaded still: those that are looked into twice, and around what is far
-    // from everything.
+    // Some pages are still loaded: those that are used twice, and those around remote places.
     EXPECT_LT(open.counters().loads - loads, 10000u / (D == 2 ? 5 : 2));
     EXPECT_LT(mesh.host.calls.find - calls.find, 10000u / (D == 2 ? 4 : 1));
     const auto fetches = mesh.host.calls.fetch - calls.fetch;
     EXPECT_GT(fetches, 8000u);
-    EXPECT_LT(fetches, 10000u * (D == 2 ? 12 : 16) / 10); // not many pages a place
+    EXPECT_LT(fetches, 10000u * (D == 2 ? 12 : 16) / 10); // few pages for each place
 }
 
 TYPED_TEST(Glance, FindsPagesThatHaveBeenMoved) {
@@ -75,7 +74,7 @@ TYPED_TEST(Glance, FindsPagesThatHaveBeenMoved) {
     expect_same_answers<D>(mesh, open, 2000);
 }
 
-/// A host whose pages have changed places with others.
+/// A host that has exchanged some pages.
 const abacus_host *sound_host;
 abacus_host_status fetch_another(void *context, abacus_page_kind kind, abacus_page *page) {
     page->location = page->location / 2 + 1;
@@ -116,7 +115,7 @@ TYPED_TEST(Glance, RefusesDamagedPages) {
     EXPECT_EQ(open.error.kind, ABACUS_ERROR_CORRUPTED);
 }
 
-/// Damaged pages with checksums that are right: any answer or error, but nothing else.
+/// Damaged pages with right checksums: any answer or error, but nothing else.
 TYPED_TEST(Glance, SurvivesSealedDamage) {
     constexpr int D = TypeParam::value;
     Large<D> mesh(D == 2 ? 30000 : 6000);
@@ -160,7 +159,7 @@ TYPED_TEST(Glance, ReadsPatchesByThemselves) {
                     ASSERT_EQ(parts.corner(s, i), whole.corner(s, i));
                     vertices.insert(parts.corner(s, i));
                 }
-            // What a patch says of its vertices is what they are.
+            // The vertex data of a patch are correct.
             std::set<int> told;
             for (int v = parts.fresh_of(patch).begin; v < parts.fresh_of(patch).end; ++v)
                 told.insert(v);

@@ -1,5 +1,4 @@
-// Goose makes the same triangulation as Abacus and CGAL, from rows that it finds by boxes
-// alone.
+// Goose makes the same triangulation as Abacus and CGAL, from rows that it finds only by boxes.
 #include "geometry/box.hpp"
 #include "geometry/conflict.hpp"
 #include "goose/circumbox.hpp"
@@ -31,10 +30,10 @@ template <int D> struct GooseRun {
     abacus_goose_figures figures{};
 };
 
-// Fewer still where it is sanitized.
+// Even fewer with a sanitizer.
 const std::size_t scale = sanitized ? 3 : 1;
 
-/// Points of the set in random order, fewer than make a test of all boxes slow.
+/// Points of the set in random order; few, since testing all boxes is slow.
 template <int D> std::vector<Point<D>> some_points(const PointSet<D> &set, std::size_t most) {
     Random random(11);
     std::vector<Point<D>> points = set.points(random);
@@ -100,7 +99,7 @@ TEST(Goose, HoldsPointsUntilTheySpanASimplex) {
     EXPECT_TRUE(flat.tree.rows.empty());
     EXPECT_TRUE(flat.mesh.host.spools.empty());
     line.push_back({3, 3});
-    line.push_back({3, 6}); // is there already
+    line.push_back({3, 6}); // already there
     expect_triangulation<2>(line);
 
     GooseRun<3> nothing;
@@ -191,7 +190,7 @@ TEST(Circumbox, IsThatOfTheSphereRoundedOutwards) {
 
 TEST(Circumbox, OfAGhostIsItsShareOfTheDomain) {
     const Circumboxes<2> flat(domain<2>(0, 8));
-    // The half-plane is to the left: here the corner (8, 8), turned round all of the domain.
+    // The half-plane is on the left: it has the corner (8, 8). Reversed, it needs the whole domain.
     auto row = boxed<2>(flat, {{2, 8}, {8, 5}});
     EXPECT_LE(row.lower[0], 2);
     EXPECT_NEAR(row.lower[0], 2, 1e-14);
@@ -204,7 +203,7 @@ TEST(Circumbox, OfAGhostIsItsShareOfTheDomain) {
         EXPECT_EQ(row.lower[k], 0);
         EXPECT_EQ(row.upper[k], 8);
     }
-    // On the border of the domain there is only the border.
+    // If the facet is on the border of the domain, only the border is left.
     row = boxed<2>(flat, {{8, 3}, {8, 1}});
     EXPECT_EQ(row.lower[0], 8);
     EXPECT_EQ(row.upper[0], 8);
@@ -217,7 +216,7 @@ TEST(Circumbox, OfAGhostIsItsShareOfTheDomain) {
     EXPECT_EQ(top.upper[1], 8);
 }
 
-/// Whatever point of the domain is in conflict lies in the box, also of needles.
+/// The box contains every point of the domain in conflict, also for needles.
 TEST(Circumbox, HoldsEveryPointInConflict) {
     Random random(5);
     int conflicts = 0;

@@ -1,5 +1,5 @@
-// Meshes that are changed all over: each page is loaded and stored about once, and pages
-// stay as full as those of a mesh that is built of the same points.
+// Meshes that change everywhere: each page is loaded and stored about once, and pages stay as full
+// as those of a mesh built from the same points.
 #include "keys/domain_of.hpp"
 #include "points/vertex_reader.hpp"
 #include "staging/density.hpp"
@@ -17,7 +17,7 @@ namespace {
 template <class Dimension> class Grow : public testing::Test {
 protected:
     static constexpr int D = Dimension::value;
-    /// So many that insertion has rounds where no mesh stands in for them.
+    /// So many that insertion uses rounds unless a mesh replaces them.
     static constexpr std::size_t many = D == 2 ? 30000 : 8000;
     static constexpr std::size_t ample = 64 << 20, little = D == 2 ? 2 << 20 : 3 << 20;
 
@@ -35,7 +35,7 @@ protected:
         return {points.begin() + static_cast<std::ptrdiff_t>(from),
                 points.begin() + static_cast<std::ptrdiff_t>(to)};
     }
-    /// Against a mesh made of the same points at once.
+    /// Compares with a mesh made from the same points at once.
     static void expect_as_fresh(MeshOf<D> &mesh, const std::vector<InputOf<D>> &points,
                                 double pages) {
         MeshOf<D> fresh(0, mesh.cache_bytes);
@@ -66,8 +66,8 @@ TYPED_TEST(Grow, AsManyPointsAgainAreOneRound) {
     }
 }
 
-// What memory does not hold is distributed over rounds as it comes in, and once more if the
-// mesh turns out to stand in for them.
+// Points that memory cannot hold are distributed over rounds as they come in, and once more if the
+// mesh turns out to replace the rounds.
 TYPED_TEST(Grow, MorePointsThanMemoryHoldsAreOneRound) {
     constexpr int D = TypeParam::value;
     constexpr auto many = TestFixture::many;
@@ -112,14 +112,14 @@ TYPED_TEST(Grow, ExchangedPointsLeaveThePagesFull) {
             ASSERT_EQ(mesh.insert(this->part(points, many + i * some, many + (i + 1) * some)),
                       ABACUS_OK);
         }
-        // In space a small cache evicts blocks before their neighbours on the curve are done.
+        // In space a small cache evicts blocks before their neighbours on the curve are finished.
         const bool is_poor = TestFixture::D == 3 && cache == TestFixture::little;
         this->expect_as_fresh(mesh, this->part(points, 10 * some, many + 10 * some),
                               is_poor ? 1.35 : 1.15);
     }
 }
 
-// A page that is filled up from the next one, and cut at the next change, is written twice for
+// A page that is filled from the next one, and cut at the next change, is written twice for
 // nothing.
 TYPED_TEST(Grow, ExchangedPointsCutFewPages) {
     constexpr auto many = TestFixture::many;
@@ -135,7 +135,7 @@ TYPED_TEST(Grow, ExchangedPointsCutFewPages) {
         ASSERT_EQ(mesh.insert(this->part(points, many + i * some, many + (i + 1) * some)),
                   ABACUS_OK);
     }
-    // Each round deletes a twentieth of the points all over, and inserts as many.
+    // Each round deletes a twentieth of the points everywhere, and inserts as many.
     EXPECT_LE(mesh.header.counters.splits, rounds / 8 * pages);
 }
 
@@ -151,7 +151,7 @@ TYPED_TEST(Grow, OnlyAMeshWhereThePointsAreStandsIn) {
     upper[0] = 2;
     const Domain<D> domain(lower, upper);
     const Host host = mesh.host.host();
-    // 100 points, of which so many are in the empty half; each wants so many vertices.
+    // 100 points, `outside` of them in the empty half; each needs this many vertices.
     const auto dense = [&](int outside, double vertices_each) {
         Arena<std::uint64_t> codes(host);
         const auto sample = this->uniform(100, 4);
@@ -168,7 +168,7 @@ TYPED_TEST(Grow, OnlyAMeshWhereThePointsAreStandsIn) {
     EXPECT_FALSE(dense(100, 16));
     EXPECT_FALSE(dense(0, 1000));
 
-    // A page that is no page: the load that needs it says more.
+    // An invalid page: the load that needs it reports more.
     mesh.host.pages.begin()->second.size = 8;
     EXPECT_FALSE(dense(0, 16));
 }

@@ -15,7 +15,7 @@ namespace {
 
 const int modes[] = {FE_TONEAREST, FE_UPWARD, FE_DOWNWARD, FE_TOWARDZERO};
 
-/// By these each mode differs from all others.
+/// These quotients differ between all modes.
 std::array<double, 4> quotients() {
     volatile double one = 1, two = 2;
     return {one / 3, two / 3, -one / 3, -two / 3};

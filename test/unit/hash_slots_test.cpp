@@ -1,4 +1,4 @@
-// The table of hashes against a map, with hashes that meet in one run, across the end of the
+// The table of hashes, compared with a map: with hashes that meet in one run, across the end of the
 // table, and while it grows.
 #include "host/hash_slots.hpp"
 #include "support/memory_host.hpp"
@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::uint32_t none = 0;
 using Slots = HashSlots<none>;
-using Model = std::map<std::uint32_t, std::uint32_t>; // number to hash
+using Model = std::map<std::uint32_t, std::uint32_t>; // hash of each number
 
 /// The numbers with this hash, in order.
 std::vector<std::uint32_t> numbers(const Slots &slots, std::uint32_t hash) {
@@ -44,7 +44,7 @@ TEST_P(HashSlotsOf, NumbersThatComeAndGoAreAsInAMap) {
     Slots slots(memory);
     Model model;
     std::mt19937 random(1);
-    // A few hashes, or many; as many in the last slots as in all others.
+    // A few hashes, or many; the last slots get as many as all others.
     const auto draw = [&] {
         const std::uint32_t hash = random() % GetParam();
         return random() % 2 ? hash : ~hash;

@@ -44,7 +44,7 @@ std::vector<unsigned char> encode(const abacus_header &header) {
     return bytes;
 }
 
-/// True if the bytes are accepted; checks that they are refused properly else.
+/// True if the bytes are accepted; otherwise checks that they are properly refused.
 bool decodes(const std::vector<unsigned char> &bytes, abacus_header *header = nullptr) {
     abacus_header decoded;
     abacus_error error{};
@@ -105,7 +105,7 @@ TEST(Header, KeepsTheSridBehindTheNames) {
             header.facts.form.srid = srid;
             const auto bytes = encode(header);
             EXPECT_LE(bytes.size(), std::size_t{ABACUS_PAGE_BYTES});
-            // A word more than a header has without one, which is as it always was.
+            // One word longer than a header without SRID, which has not changed.
             ASSERT_EQ(bytes.size(), without.size() + 8);
             EXPECT_TRUE(std::equal(without.begin(), without.end(), bytes.begin()));
             abacus_header decoded;
@@ -126,7 +126,7 @@ TEST(Header, AWrongSridIsRefused) {
     auto longer = bytes;
     longer.resize(longer.size() + 8);
     EXPECT_FALSE(decodes(longer));
-    bytes[srid + 2] = 0x10; // beyond the greatest
+    bytes[srid + 2] = 0x10; // beyond the greatest SRID
     EXPECT_FALSE(decodes(bytes));
     bytes[srid + 2] = 0;
     bytes[srid + 4] = 1;
@@ -170,7 +170,7 @@ TEST(Header, OfLabelsAndMarkers) {
                 if (labels > 0) {
                     EXPECT_STREQ(decoded.names[attributes], "label 0");
                 }
-                // Without them it is as it always was.
+                // Without them the header has not changed.
                 header.facts.columns.labels = 0;
                 header.facts.census.labelled = header.facts.census.marked = 0;
                 header.facts.columns.inherits = 0;
@@ -180,7 +180,7 @@ TEST(Header, OfLabelsAndMarkers) {
             }
 }
 
-/// The header and the rows of names beside it.
+/// The header and the rows of names.
 std::vector<std::vector<unsigned char>> encode_rows(const abacus_header &header) {
     std::vector<std::vector<unsigned char>> rows{encode(header)};
     for (std::uint32_t row = 0; row < abacus_header_name_rows(&header.facts.columns); ++row) {
@@ -261,7 +261,7 @@ TEST(Header, WrongRowsOfNamesAreRefused) {
         changed[row].resize(rows[row].size() + 8);
         EXPECT_FALSE(decodes_rows(changed, decoded));
     }
-    // The counts of attributes and labels: too many, or as few as the header row has room for.
+    // Invalid counts of attributes and labels: too many, or few enough for the header row.
     constexpr std::size_t attributes = 16;
     const std::size_t labels = rows[0].size() - 40;
     for (const unsigned count : {0u, 100u, 1001u}) {
@@ -315,7 +315,7 @@ TEST(Header, OfAnEmptyMesh) {
     abacus_header header{};
     header.facts.form.dimension = 2;
     EXPECT_TRUE(decodes(encode(header)));
-    // Bounds that do not count are not kept.
+    // Unused bounds are not kept.
     header.facts.form.lower[0] = header.facts.form.upper[2] =
         std::numeric_limits<double>::quiet_NaN();
     abacus_header decoded;
@@ -436,7 +436,7 @@ TEST(Header, OfVerticesThatShareTheirPlaces) {
         change(changed);
         return !decodes(encode(changed));
     };
-    // With many names, too.
+    // Also with many names.
     header.facts.columns.attributes = 100;
     header.facts.columns.labels = 20;
     for (unsigned i = 0; i < 120; ++i)

@@ -1,5 +1,5 @@
-// Points straight into the triangulation, without vertex pages between, and the points
-// that equal a vertex.
+// Points straight into the triangulation, without vertex pages in between, and points that equal a
+// vertex.
 #include "support/oracle.hpp"
 
 #include <gtest/gtest.h>
@@ -71,7 +71,7 @@ TYPED_TEST(Insert, GivesTheMeshOfAllPointsAndNoVertexPages) {
 }
 
 TYPED_TEST(Insert, WaitsForASimplex) {
-    // Few and many points on a line, more than are held in memory; then the mesh begins.
+    // Few and many points on a line, more than memory holds; then the mesh begins.
     constexpr int D = TypeParam::value;
     for (const int n : {0, 1, 2, 300, 4096, 12000}) {
         MeshOf<D> mesh;
@@ -109,7 +109,7 @@ TYPED_TEST(Insert, InsertsFirstWhatWaits) {
     MeshOf<D> mesh(0, little);
     auto all = this->uniform(800);
     ASSERT_EQ(mesh.stage(number<D>(all)), ABACUS_OK);
-    auto again = number<D>(all); // so these are duplicates, under other ids
+    auto again = number<D>(all); // so these are duplicates with other ids
     for (InputOf<D> &input : again) input.id += 1000;
     ASSERT_EQ(mesh.insert(again), ABACUS_OK);
     EXPECT_EQ(mesh.header.facts.census.duplicates, 800u);
@@ -120,7 +120,7 @@ TYPED_TEST(Insert, InsertsFirstWhatWaits) {
 }
 
 TYPED_TEST(Insert, KeepsEveryRepeatedPoint) {
-    // Few places, one of them very often: more equal points than fit a page, in batches.
+    // Few places, one of them very frequent: more equal points than fit a page, in batches.
     constexpr int D = TypeParam::value;
     MeshOf<D> mesh(1, little);
     std::map<std::int64_t, InputOf<D>> given;

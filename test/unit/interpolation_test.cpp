@@ -60,7 +60,7 @@ template <int D> std::vector<Point<D>> grid(int n) {
     return points;
 }
 
-/// A mesh with the linear function, and one that lacks every third value.
+/// A mesh with the linear function, and one without every third value.
 template <int D> struct Field : MeshOf<D> {
     explicit Field(const std::vector<Point<D>> &points) : MeshOf<D>(2), points(points) {
         std::vector<InputOf<D>> input;
@@ -233,7 +233,7 @@ TYPED_TEST(Interpolation, LeavesOutSimplicesThatAreTooLong) {
     Random random(9);
     int left_out = 0, inside = 0;
     for (int i = 0; i < 600; ++i) {
-        // At a vertex, where simplices of both kinds meet, one that is short is enough.
+        // At a vertex, where simplices of both kinds meet, a single short one is enough.
         const Point<D> p = i % 2 == 0 ? unit_point<D>(random) : points[random() % points.size()];
         const bool is_inside = is_in<D>(all, p);
         for (const abacus_method method : {ABACUS_LINEAR, ABACUS_NATURAL, ABACUS_NEAREST})
@@ -398,7 +398,7 @@ TYPED_TEST(Interpolation, NaturalIsTheSameToTheBitHoweverTheMeshCameAbout) {
         for (double &x : p) x = i % 2 == 0 ? 0.1 + 0.8 * x : std::floor(2 + 6 * x) / 2;
         ASSERT_EQ(weights_at<D>(open, how(ABACUS_NATURAL), p),
                   weights_at<D>(reopened, how(ABACUS_NATURAL), p));
-        Point<D> elsewhere = unit_point<D>(random); // so that a walk comes from there
+        Point<D> elsewhere = unit_point<D>(random); // so that the walk starts there
         for (double &x : elsewhere) x *= 5;
         weights_at<D>(reopened, how(ABACUS_NATURAL), elsewhere);
     }
@@ -490,7 +490,7 @@ TYPED_TEST(Interpolation, GradientsAreThoseOfLinearFunctions) {
 }
 
 TEST(Gradient, OfAFlatTriangleIsExact) {
-    // Of height 1e-17 over an edge of length 1: nothing is left of it in differences of doubles.
+    // Height 1e-17 over an edge of length 1: differences of doubles lose it completely.
     Mesh mesh(1);
     const double small = 1e-17;
     ASSERT_EQ(mesh.insert({{1, {0, 0}, {0}}, {2, {1, 0}, {0}}, {3, {0.5, small}, {1}}}), ABACUS_OK);

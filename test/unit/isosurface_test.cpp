@@ -1,5 +1,5 @@
-// Isosurfaces against brute force over all tetrahedra, and what makes a surface: numbers,
-// coordinates, closed, two triangles at an edge, one fan around a corner, one side.
+// Isosurfaces, compared with brute force over all tetrahedra; and the properties of a surface:
+// numbers, coordinates, closed, two triangles at an edge, one fan around a corner, one side.
 #include "geometry/ball.hpp"
 #include "support/large_mesh.hpp"
 #include "support/oracle.hpp"
@@ -26,7 +26,7 @@ struct Triangle {
     bool operator<(const Triangle &other) const { return corner < other.corner; }
 };
 
-/// A mesh of which the first attribute is a field, the second a slope.
+/// A mesh whose first attribute is a field, and the second a slope.
 struct Solid : MeshOf<3> {
     Solid(const std::vector<Point<3>> &points, const Field &field) : MeshOf<3>(2) {
         std::vector<InputOf<3>> input;
@@ -69,7 +69,7 @@ struct Solid : MeshOf<3> {
     std::map<Point<3>, double> at;
 };
 
-/// The triangles that are expected, by the edges of their corners, and where these are.
+/// The expected triangles, by the edges of their corners, and the places of these.
 struct Expected {
     std::map<Edge, std::int64_t> rank;
     std::multiset<std::set<Edge>> corners; // of each tetrahedron
@@ -120,7 +120,7 @@ void expect_all(Solid &solid, const abacus_isosurface_query &query,
             ASSERT_LT(t.corner[i], static_cast<std::int64_t>(edge_of.size()));
             ASSERT_EQ(places.emplace(t.corner[i], t.point[i]).first->second, t.point[i]);
             const auto &[a, b] = *edge_of[t.corner[i]];
-            using Wide = long double; // nothing overflows or vanishes
+            using Wide = long double; // no overflow or underflow
             const Wide share =
                 (Wide(query.value) - solid.at[a]) / (Wide(solid.at[b]) - solid.at[a]);
             const Point<3> &p = t.point[i];
@@ -145,7 +145,7 @@ void expect_all(Solid &solid, const abacus_isosurface_query &query,
 
 using Side = std::pair<std::int64_t, std::int64_t>;
 
-/// Sides of triangles, as often as they are there. Fails if one is there twice in one direction.
+/// How often each side occurs. Fails if one occurs twice in the same direction.
 std::map<Side, int> sides(const std::vector<Triangle> &triangles) {
     std::map<Side, int> sides;
     for (const Triangle &t : triangles)
@@ -156,7 +156,7 @@ std::map<Side, int> sides(const std::vector<Triangle> &triangles) {
     return sides;
 }
 
-/// Sides that are of one triangle only.
+/// Counts the sides that belong to only one triangle.
 std::size_t rims(const std::vector<Triangle> &triangles) {
     const auto all = sides(triangles);
     std::size_t rims = 0;
@@ -172,7 +172,7 @@ bool is_manifold(const std::vector<Triangle> &triangles) {
             if (!fans[t.corner[i]].emplace(t.corner[(i + 1) % 3], t.corner[(i + 2) % 3]).second)
                 return false;
     for (auto &[corner, fan] : fans) {
-        // The path that begins where nothing leads to; a cycle if there is no such place.
+        // The path from the triangle that no other leads to; a cycle if there is none.
         std::set<std::int64_t> ends;
         for (const auto &[from, to] : fan) ends.insert(to);
         auto begin = fan.begin();
@@ -218,7 +218,7 @@ class IsosurfaceOfPoints : public testing::TestWithParam<PointSet<3>> {};
 
 TEST_P(IsosurfaceOfPoints, IsThatOfEveryTetrahedron) {
     const std::vector<Point<3>> points = some(GetParam(), 1500);
-    // A few values only, so that many vertices are on the surface.
+    // Only a few values, so that many vertices are on the surface.
     Random random(5);
     std::map<Point<3>, double> drawn;
     for (const Point<3> &p : points) drawn[p] = static_cast<double>(random() % 4);
@@ -254,11 +254,11 @@ TEST(Isosurface, OfASphereIsClosedAndNearlyIt) {
     double area = 0;
     for (const Triangle &t : triangles) area += area_of(t);
     EXPECT_NEAR(area, 4 * M_PI * 0.49, 0.1);
-    // Values are lower outside, and so it is turned.
+    // Values are lower outside, so the surface is turned outwards.
     EXPECT_NEAR(volume_of(triangles) / 6, 4 / 3.0 * M_PI * 0.343, 0.02);
     Solid outside(in_a_cube(2000), from_centre);
     EXPECT_LT(volume_of(outside.surface(outside.query(0.7))), 0);
-    // Euler's: corners - edges + triangles = 2.
+    // Euler's formula: corners - edges + triangles = 2.
     std::int64_t corners = 0;
     for (const Triangle &t : triangles)
         corners = std::max({corners, t.corner[1] + 1, t.corner[2] + 1});
@@ -270,7 +270,7 @@ TEST(Isosurface, IsTheSameInLittleMemory) {
     std::vector<Triangle> ample = solid.surface(solid.query(0.8));
     solid.host.peak_spools = 0;
     std::vector<Triangle> little = solid.surface(solid.query(0.8), 1);
-    EXPECT_GT(solid.host.peak_spools, 6u); // runs that were merged
+    EXPECT_GT(solid.host.peak_spools, 6u); // some runs were merged
     std::sort(ample.begin(), ample.end());
     std::sort(little.begin(), little.end());
     ASSERT_EQ(ample.size(), little.size());

@@ -1,4 +1,4 @@
-// Where a block is cut: near the number wanted, and never between equal keys.
+// The place where a block is cut: near the wanted number, and never between equal keys.
 #include "blocks/key_cut.hpp"
 
 #include "support/memory_host.hpp"
@@ -21,7 +21,8 @@ TEST(KeyCut, PartsKeysNearTheNumberWanted) {
     const Host host = memory.host();
     KeyCut cut(host);
     for (int round = 0; round < 20000; ++round) {
-        // Codes spread evenly, over many orders of magnitude, or few of them; with parts or not.
+        // Codes spread evenly, over many orders of magnitude, or only a few codes; with parts or
+        // without.
         const std::size_t n = 2 + random() % 300;
         const int kind = static_cast<int>(random() % 4);
         cut.clear();
@@ -45,7 +46,7 @@ TEST(KeyCut, PartsKeysNearTheNumberWanted) {
         const std::size_t at = cut.cut_near(wanted);
         ASSERT_GT(at, 0u);
         ASSERT_LE(at, n);
-        // The keys are those that there were.
+        // The keys are still the same.
         std::vector<Words> parted;
         std::vector<bool> seen(n);
         for (const KeyCut::Place &place : cut) {
@@ -59,7 +60,7 @@ TEST(KeyCut, PartsKeysNearTheNumberWanted) {
         }
         std::sort(parted.begin(), parted.end());
         ASSERT_EQ(parted, keys);
-        // Not farther away than keys are equal, and a little.
+        // Not much farther away than equal keys require.
         const std::size_t goal = std::clamp<std::size_t>(wanted, 1, n - 1);
         const auto [first, last] = std::equal_range(keys.begin(), keys.end(), keys[goal]);
         const auto below = static_cast<std::size_t>(first - keys.begin());

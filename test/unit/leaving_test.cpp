@@ -1,5 +1,5 @@
-// Many points of one place taken away in one call: as one after the other, without searching
-// the pages of the place for each.
+// Many points of one place removed in one call: the result is the same as one after the other,
+// without a search of the place's pages for each.
 #include "points/leaving.hpp"
 
 #include "support/oracle.hpp"
@@ -21,8 +21,8 @@ using Random = std::mt19937_64;
 using Points = std::vector<std::int64_t>; // ids, in the order of input
 using Wants = std::vector<std::int64_t>;
 
-/// The serial numbers that are left: each want takes the first with its id, or else, unless
-/// exactly, the first.
+/// The remaining serial numbers: each want takes the first with its id, or else, unless `exactly`,
+/// the first.
 std::vector<std::size_t> left_one_by_one(const Points &points, const Wants &wants, bool exactly) {
     std::vector<std::size_t> left(points.size());
     std::iota(left.begin(), left.end(), 0);
@@ -38,7 +38,7 @@ std::vector<std::size_t> left_one_by_one(const Points &points, const Wants &want
     return left;
 }
 
-/// The same by one run. `parted`: what tells points apart is not an id, but one and two attributes.
+/// The same in one run. `parted`: not the ids but one and two attributes distinguish the points.
 std::vector<std::size_t> left_together(Leaving &leaving, const Points &points, const Wants &wants,
                                        bool parted = false) {
     const auto id = [&](std::int64_t which) { return parted ? which / 9 : which; };
@@ -69,7 +69,7 @@ TEST(Leaving, IsAsOneAfterTheOther) {
                                    Leaving(host, 1 << 20, true, 0)};
     Leaving by_attributes(host, 1 << 20, true, 2);
     for (int round = 0; round < 20000; ++round) {
-        // From ids that are all the same to ids that hardly repeat, some of them not there.
+        // From ids that are all equal to ids that hardly repeat, some of them missing.
         const std::int64_t ids = 1 + static_cast<std::int64_t>(random() % 24);
         Points points(1 + random() % 24);
         for (std::int64_t &id : points) id = static_cast<std::int64_t>(random() % ids);
@@ -150,7 +150,7 @@ TEST(Leaving, IsTheSameWhilePointsWait) {
     }
 }
 
-/// A mesh, of which some points are at one place, and what should be there.
+/// A mesh with several points at one place, and the points that should be there.
 class Place {
 public:
     explicit Place(std::size_t cache_bytes = std::size_t(64) << 20) : mesh(1, cache_bytes) {
@@ -181,7 +181,7 @@ public:
         ASSERT_EQ(mesh.host.violations, std::vector<std::string>{});
         ASSERT_EQ(mesh.host.bytes, 0u);
     }
-    /// Compares the points, and which of them is the vertex.
+    /// Compares the points, and checks which of them is the vertex.
     void expect() {
         ASSERT_EQ(mesh.check(), std::vector<std::string>{});
         ASSERT_EQ(mesh.header.facts.census.vertices, here.empty() ? 3u : 4u);
@@ -217,7 +217,7 @@ private:
 
 TEST(Leaving, TakesPointsOfOnePlaceAsOneAfterTheOther) {
     Random random(5);
-    // The small cache takes some dozens together, the large one all of them.
+    // The small cache takes some dozens at a time, the large one all of them.
     for (const std::size_t cache_bytes : {std::size_t(40) << 10, std::size_t(16) << 20}) {
         Place place(cache_bytes);
         for (int step = 0; step < (sanitized ? 50 : 150); ++step) {
@@ -234,7 +234,7 @@ TEST(Leaving, TakesPointsOfOnePlaceAsOneAfterTheOther) {
     }
 }
 
-/// Calls for pages while half of n points of a place are taken away.
+/// Counts the calls for pages while half of n points of a place are removed.
 std::uint64_t calls_to_take_half(std::size_t n, Random *random, std::int64_t id_offset) {
     std::vector<std::int64_t> ids(n);
     std::iota(ids.begin(), ids.end(), 0);
@@ -253,7 +253,7 @@ std::uint64_t calls_to_take_half(std::size_t n, Random *random, std::int64_t id_
 }
 
 TEST(Leaving, ReadsAndWritesThePagesOfAPlaceAFewTimes) {
-    // In the order of input, in any order, and by ids that are not there.
+    // In the order of input, in any order, and by unknown ids.
     Random random(7);
     const std::size_t n = sanitized ? 5000 : 20000, points_a_page = 100; // at least
     EXPECT_LT(calls_to_take_half(n, nullptr, 0), 8 * n / points_a_page);

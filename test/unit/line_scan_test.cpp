@@ -1,5 +1,6 @@
-// The simplices along a line: against brute force in rational numbers over all simplices, in every
-// kind of mesh, for lines through vertices, along edges and in facets, from inside and outside.
+// The simplices along a line, compared with brute force in rational numbers over all simplices: in
+// every kind of mesh, for lines through vertices, along edges and in facets, from inside and
+// outside.
 #include "query/lines/line_scan.hpp"
 #include "support/containment.hpp"
 #include "support/point_sets.hpp"
@@ -39,7 +40,7 @@ Rational determinant(const std::array<Vector<3>, 3> &m) {
     return sum;
 }
 
-/// How far a place is on the inner side of a facet, by a factor of the facet's own.
+/// How far a place is on the inner side of a facet, times a factor of the facet.
 template <int D> Rational height(const abacus_simplex &s, int facet, const Vector<D> &p) {
     std::array<Vector<D>, D> m;
     const int origin = facet == 0 ? 1 : 0;
@@ -106,7 +107,7 @@ std::vector<Found> brute_force(const std::vector<abacus_simplex> &all, const Lin
 
 void expect_near(double value, const Rational &exact) {
     const double expected = CGAL::to_double(exact);
-    if (std::isinf(expected)) // no double is so large
+    if (std::isinf(expected)) // beyond the range of doubles
         ASSERT_EQ(value, expected);
     else
         ASSERT_NEAR(value, expected, 1e-9 * std::max(1.0, std::abs(expected)));
@@ -140,7 +141,7 @@ void expect_pieces(Reader<D> &reader, const Line<D> &line, const std::vector<Fou
     }
 }
 
-/// Lines between vertices, along edges, between any places, on the lattice, far away.
+/// Lines between vertices, along edges, between arbitrary places, on the lattice, far away.
 template <int D>
 std::vector<Line<D>> lines(const std::vector<Point<D>> &points,
                            const std::vector<abacus_simplex> &all, Random &random, int rounds) {
@@ -224,7 +225,7 @@ template <int D> void expect_lines_of_sets() {
 TEST(LineScan, EqualsBruteForceInThePlane) { expect_lines_of_sets<2>(); }
 TEST(LineScan, EqualsBruteForceInSpace) { expect_lines_of_sets<3>(); }
 
-/// The same simplices whichever way the line goes.
+/// The same simplices in both directions of the line.
 template <int D> void expect_reversible() {
     Random random(8);
     for (const PointSet<D> &set : point_sets<D>()) {

@@ -1,4 +1,4 @@
-// Profiles and lines of sight: against brute force in rational numbers, and identities.
+// Profiles and lines of sight: compared with brute force in rational numbers, and identities.
 #include "geometry/distance.hpp"
 #include "query/lines/profile.hpp"
 #include "query/lines/sight.hpp"
@@ -60,7 +60,7 @@ template <int D> void expect_linear_profile() {
         for (auto &p : path)
             for (double &x : p) x = 1.4 * unit(random) - 0.2;
         path[1] = points[static_cast<std::size_t>(round)];
-        path[2] = path[1]; // passed over
+        path[2] = path[1]; // skipped
         double before = 0;
         for (const Row<D> &row : profile<D>(reader, path)) {
             ASSERT_LE(before, row.distance);
@@ -105,7 +105,7 @@ TEST(Profile, HasARowAtEachVertexAlongAnEdge) {
     ASSERT_EQ(mesh.insert(with_heights<2>(grid(5))), ABACUS_OK);
     const Host host = mesh.host.host();
     Reader<2> reader(host, mesh.header, ample);
-    for (const double y : {0.0, 2.0, 4.0}) { // the border, too
+    for (const double y : {0.0, 2.0, 4.0}) { // also the border
         const Rows rows = rows_of(reader, {{-1, y}, {5, y}});
         EXPECT_EQ(rows.distances, (std::vector<double>{0, 1, 1, 2, 3, 4, 5, 5, 6}));
         EXPECT_EQ(rows.values, (std::vector<double>{-1, -1, 1 + 3 * y, 3 + 3 * y, 5 + 3 * y,
@@ -125,7 +125,7 @@ TEST(Profile, HasGapsWhereTheMeshHas) {
     const Rows rows = rows_of(reader, {{0, 3}, {6, 3}});
     EXPECT_EQ(rows.distances, (std::vector<double>{0, 1, 2, 2, 4, 4, 5, 6}));
     EXPECT_EQ(rows.values, (std::vector<double>{10, 12, 14, -1, -1, 18, 20, 22}));
-    // From corner to corner of the path, in the hole and out of the mesh.
+    // Along the corners of the path, in the hole and out of the mesh.
     const Rows bent = rows_of(reader, {{0, 3}, {3, 3}, {3, 8}});
     EXPECT_EQ(bent.distances, (std::vector<double>{0, 1, 2, 2, 3, 4, 4, 5, 6, 6, 8}));
     EXPECT_EQ(bent.values, (std::vector<double>{10, 12, 14, -1, -1, -1, 19, 22, 25, -1, -1}));
@@ -155,7 +155,7 @@ std::array<Rational, 2> between(const Point<2> &a, const Point<2> &b) {
     return {Rational(b[0]) - Rational(a[0]), Rational(b[1]) - Rational(a[1])};
 }
 
-/// The ground, exactly, by all triangles.
+/// The exact ground, searched in all triangles.
 std::optional<Rational> ground(const Terrain &terrain, const Point<2> &p) {
     for (const abacus_simplex &s : terrain.all) {
         Rational sum = 0, whole = 0;
@@ -173,7 +173,7 @@ std::optional<Rational> ground(const Terrain &terrain, const Point<2> &p) {
     return std::nullopt;
 }
 
-/// Whether the ground is above the line nowhere: at its ends, and where it crosses an edge.
+/// Whether the ground is nowhere above the line: at its ends, and where it crosses an edge.
 bool is_free(const Terrain &terrain, const Point<2> &a, const Rational &za, const Point<2> &b,
              const Rational &zb) {
     if (const auto here = ground(terrain, a); here && *here > za) return false;
@@ -242,7 +242,7 @@ TEST(Sight, EqualsBruteForce) {
             ASSERT_EQ(sight.kind == ABACUS_SIGHT_FREE, is_free(terrain, at[0], *z[0], at[1], *z[1]))
                 << round;
             if (sight.kind == ABACUS_SIGHT_FREE) continue;
-            // Up to where it is blocked it is free.
+            // Up to the place where it is blocked, it is free.
             const Point<2> to{sight.place[0], sight.place[1]};
             const double part = abacus::distance<2>(at[0], to) / abacus::distance<2>(at[0], at[1]);
             if (part < 1e-9) continue;

@@ -1,5 +1,5 @@
-// Which sets of simplices are complexes: a few at random on a small grid, where everything
-// degenerate happens, against a test of every pair with CGAL's kernel over rationals.
+// Which sets of simplices are complexes: a few random ones on a small grid, where everything
+// degenerate happens, compared with a test of every pair with CGAL's kernel over rationals.
 //
 // Two simplices meet in a common face if and only if no vertex of one lies in a face of the
 // other that lacks this vertex, and in space no edge of one meets an edge or a triangle of

@@ -1,4 +1,4 @@
-// Locating and walking in loaded meshes that are not Delaunay, not convex, in pieces: against
+// Locating and walking in loaded meshes that are not Delaunay, not convex, in pieces: compared with
 // brute force over all simplices.
 #include "support/containment.hpp"
 #include "support/triangulations.hpp"
@@ -20,7 +20,7 @@ template <int D> std::vector<Point<D>> grid(int n) {
     return points;
 }
 
-/// Vertices, middles of any two, which lie on facets in grids, and places anywhere.
+/// Vertices, middles of pairs, which lie on facets in grids, and arbitrary places.
 template <int D> std::vector<Point<D>> targets(const Triangulation<D> &t, int n) {
     std::mt19937_64 random(31);
     std::uniform_real_distribution<double> shift(-1, 1);

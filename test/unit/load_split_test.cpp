@@ -1,5 +1,5 @@
 // Split nodes: meshes cut along faults, whose two sides have vertices of their own at the same
-// places. What is loaded comes back; every question is answered as by brute force.
+// places. The loaded mesh comes back unchanged; every question is answered as by brute force.
 #include "support/containment.hpp"
 #include "support/triangulations.hpp"
 
@@ -23,8 +23,8 @@ template <int D> std::vector<Point<D>> grid(int n) {
     return points;
 }
 
-/// The vertices of facets that are faults, by their middles, become several: one for each part of
-/// the star that hangs together across other facets. The attribute of a vertex is its id.
+/// Splits the vertices of facets that are faults, according to their middles: one for each part of
+/// the star that is connected across other facets. The attribute of a vertex is its id.
 template <int D>
 Triangulation<D> cut(const Triangulation<D> &t,
                      const std::function<bool(const Point<D> &)> &is_fault) {
@@ -58,8 +58,8 @@ Triangulation<D> cut(const Triangulation<D> &t,
                         parent[find(s * (D + 1) + k)] = find(other->second * (D + 1) + l);
         }
     Triangulation<D> result;
-    std::map<std::size_t, std::int64_t> ids; // of parts
-    std::map<std::int64_t, int> parts;       // of a vertex
+    std::map<std::size_t, std::int64_t> ids; // for each part
+    std::map<std::int64_t, int> parts;       // for each vertex
     for (std::size_t s = 0; s < t.simplices.size(); ++s) {
         Ids<D> simplex;
         for (int k = 0; k <= D; ++k) {
@@ -83,14 +83,14 @@ template <int D> std::vector<Triangulation<D>> meshes() {
     const auto square = delaunay<D>(grid<D>(n));
     const auto is_on = [=](const Point<D> &p, int axis) { return p[axis] == middle; };
     std::vector<Triangulation<D>> result;
-    // From one side to the other; up to a tip within; crossing; every second layer.
+    // From one side to the other; up to a tip inside; crossing; every second layer.
     result.push_back(cut<D>(square, [=](const auto &p) { return is_on(p, 0); }));
     result.push_back(cut<D>(square, [=](const auto &p) { return is_on(p, 0) && p[1] < middle; }));
     result.push_back(cut<D>(square, [=](const auto &p) { return is_on(p, 0) || is_on(p, 1); }));
     result.push_back(cut<D>(square, [=](const auto &p) {
         return std::fmod(p[D - 1], 2) == 0 && (is_on(p, 0) || p[0] < middle);
     }));
-    // Along any facets of points at random.
+    // Along arbitrary facets of random points.
     std::mt19937_64 random(7);
     std::uniform_real_distribution<double> unit(0, 1);
     std::vector<Point<D>> points(D == 2 ? 400 : 150);
@@ -118,7 +118,7 @@ template <int D> std::vector<Ids<D>> stored(MeshOf<D> &mesh) {
     return sorted<D>(result);
 }
 
-/// Vertices that share their places.
+/// Counts the vertices that share their places.
 template <int D> std::uint64_t split(const Triangulation<D> &t) {
     std::map<Point<D>, std::uint64_t> at;
     for (const auto &v : t.vertices) ++at[v.point];
@@ -227,7 +227,7 @@ TYPED_TEST(LoadSplit, OverlapsAreFound) {
         };
         Triangulation<D> twice = t;
         twice.add(t, 50000000);
-        EXPECT_TRUE(fails(twice)); // all of it
+        EXPECT_TRUE(fails(twice)); // the whole mesh
         for (std::size_t i = 0; i < t.simplices.size(); i += t.simplices.size() / 7) {
             Triangulation<D> one = t, part;
             part.vertices = t.vertices;
@@ -236,7 +236,7 @@ TYPED_TEST(LoadSplit, OverlapsAreFound) {
             one.add(part, 50000000);
             EXPECT_TRUE(fails(one)); // one simplex
         }
-        // Every second one: all facets of the copies are free.
+        // Every second simplex: all facets of the copies are free.
         Triangulation<D> half = t, some;
         some.vertices = t.vertices;
         for (std::size_t i = 0; i < t.simplices.size(); i += 2)

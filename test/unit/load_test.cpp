@@ -1,5 +1,5 @@
-// Loading triangulations made elsewhere: what comes back is what was given, Delaunay or not;
-// what is no triangulation is refused, and named.
+// Loading triangulations made elsewhere: the same mesh comes back, Delaunay or not; anything that
+// is not a triangulation is refused, and the faulty parts are named.
 #include "support/triangulations.hpp"
 
 #include <gtest/gtest.h>
@@ -44,7 +44,7 @@ template <int D> std::vector<Ids<D>> stored(MeshOf<D> &mesh) {
     return sorted<D>(result);
 }
 
-/// Loads in another order; all that is given must be there again and sound.
+/// Loads in another order; everything given must be there again, and be sound.
 template <int D>
 void expect_loads(MeshOf<D> &mesh, Triangulation<D> t, abacus_delaunay delaunay,
                   std::size_t memory = ample) {
@@ -80,7 +80,7 @@ TYPED_TEST(Load, DelaunayTriangulationsBecomeFullMeshes) {
             ASSERT_EQ(built.build(), ABACUS_OK);
             EXPECT_EQ(mesh.positions(), built.positions());
             EXPECT_EQ(mesh.header.facts.census.ghosts, built.header.facts.census.ghosts);
-            // It can be added to: the same as building all of it.
+            // Points can be added to it: the same as building the whole mesh.
             auto all = points;
             const auto more = random_points<D>(500, 2);
             all.insert(all.end(), more.begin(), more.end());
@@ -118,7 +118,8 @@ TYPED_TEST(Load, OtherTriangulationsAreMarked) {
 
 TYPED_TEST(Load, CosphericalPointsMustBeTriangulatedAsAbacusWould) {
     constexpr int D = TestFixture::D;
-    // One cell of a grid, mirrored: Delaunay without the perturbation, but another one.
+    // One cell of a grid, mirrored: Delaunay except for the perturbation, but another
+    // triangulation.
     auto t = delaunay<D>(grid<D>(2));
     MeshOf<D> same(0), mirrored(0);
     expect_loads<D>(same, t, ABACUS_DELAUNAY);
@@ -126,7 +127,7 @@ TYPED_TEST(Load, CosphericalPointsMustBeTriangulatedAsAbacusWould) {
     expect_loads<D>(mirrored, t, ABACUS_WEAKLY_DELAUNAY);
 }
 
-/// Five tetrahedra in each cube, whose inner ones alternate so that they fit together.
+/// Five tetrahedra in each cube; the inner ones alternate so that they fit together.
 Triangulation<3> cubes_in_five(int n) {
     const auto id = [n](int x, int y, int z) {
         return static_cast<std::int64_t>((x * (n + 1) + y) * (n + 1) + z);
@@ -270,7 +271,7 @@ TYPED_TEST(Load, TightClustersSpreadOverPages) {
 
 // ---- Faults ----------------------------------------------------------------------------
 
-/// What loading says.
+/// The error of loading.
 template <int D> std::string refusal(Triangulation<D> t, bool reorient = true, bool mix = true) {
     if (mix) t.shuffle(6);
     MeshOf<D> mesh(0);
@@ -309,7 +310,7 @@ TEST(LoadFaults, InThePlane) {
                   t.simplices.push_back({-5, 2, 4});
               }),
               "vertices -5 and 3 have the same coordinates");
-    EXPECT_EQ(with([](auto &t) { // in no simplex: left out, wherever it is
+    EXPECT_EQ(with([](auto &t) { // in no simplex: omitted, wherever it is
                   t.vertices.insert(t.vertices.end(), {{5, {9, 9}}, {6, {4, 4}}, {-3, {1, 2}}});
               }),
               "");
@@ -360,7 +361,7 @@ TEST(LoadFaults, InThePlane) {
               })
                   .substr(0, 9),
               "simplices");
-    EXPECT_EQ(with([](auto &t) { // beside it, but its corner in the middle of an edge
+    EXPECT_EQ(with([](auto &t) { // beside it, but with a corner in the middle of an edge
                   t.vertices.insert(t.vertices.end(), {{5, {4, 2}}, {6, {6, 1}}, {7, {6, 3}}});
                   t.simplices.push_back({5, 6, 7});
               }),
@@ -371,7 +372,7 @@ TEST(LoadFaults, InThePlane) {
               })
                   .substr(0, 9),
               "simplices");
-    EXPECT_EQ(with([](auto &t) { // around a corner that is shared, without overlap
+    EXPECT_EQ(with([](auto &t) { // around a shared corner, without overlap
                   t.vertices.insert(t.vertices.end(), {{5, {5, 6}}, {6, {6, 5}}});
                   t.simplices.push_back({3, 6, 5});
               }),
@@ -384,7 +385,7 @@ TEST(LoadFaults, InThePlane) {
 }
 
 TEST(LoadFaults, ACoverThatIsLocallySound) {
-    // A fan of triangles that goes around its centre twice: every facet has its two sides.
+    // A fan of triangles that goes around its centre twice: every facet has two sides.
     Triangulation<2> t;
     t.vertices.push_back({0, {0, 0}});
     for (int i = 0; i < 10; ++i)
@@ -456,8 +457,7 @@ TEST(LoadFaults, InSpace) {
         "simplices");
 }
 
-/// Simplices moved or added at random to a sound mesh: refused exactly when a test of all
-/// pairs by CGAL finds two whose interiors meet... which brute force decides by orientations.
+/// One vertex of a sound mesh moves at random: the mesh is refused exactly if a simplex turns over.
 TEST(LoadFaults, OneMovedVertexIsFoundExactlyWhenItTurnsASimplex) {
     const auto sound = delaunay<2>(random_points<2>(150, 21));
     std::mt19937_64 random(22);
@@ -467,7 +467,7 @@ TEST(LoadFaults, OneMovedVertexIsFoundExactlyWhenItTurnsASimplex) {
         auto t = sound;
         auto &v = t.vertices[random() % t.vertices.size()];
         for (double &x : v.point) x += shift(random);
-        // A moved inner vertex keeps the mesh sound if and only if no triangle turns over.
+        // A moved inner vertex leaves the mesh sound if and only if no triangle turns over.
         std::map<std::int64_t, Point<2>> at;
         for (const auto &vertex : t.vertices) at[vertex.id] = vertex.point;
         int links = 0, turned = 0;

@@ -112,7 +112,7 @@ TYPED_TEST(LocationalCode, PartDoesNotDependOnTheOrderOfTheCorners) {
                     const double t = std::ldexp(static_cast<double>(random()), -64);
                     p[axis] = domain.lower()[axis] * (1 - t) + domain.upper()[axis] * t;
                 }
-            if (round % 2) points[0] = points[1]; // equal in their cells
+            if (round % 2) points[0] = points[1]; // equal within their cells
             std::array<const Point<D> *, D + 1> corners;
             for (int i = 0; i <= D; ++i) corners[i] = &points[i];
             const auto part_of = [&] {
@@ -157,7 +157,7 @@ TYPED_TEST(LocationalCode, PartsOfAGridAreInOrderHoweverFineItIs) {
                 coarse.insert(part >> 47);
                 places.insert(part >> (D == 2 ? 15 : 11));
             }
-        // All are in one coarse place, each in one of its own.
+        // All are in the same coarse place, each in a fine place of its own.
         EXPECT_EQ(coarse.size(), 1u) << step;
         EXPECT_EQ(places.size(), std::size_t(n) * n) << step;
     }
@@ -169,8 +169,8 @@ TYPED_TEST(LocationalCode, DomainReachesFromTheFirstCellToTheLast) {
         SCOPED_TRACE(domain.lower()[0]);
         const Cell<D> lower = domain.cell(domain.lower()), upper = domain.cell(domain.upper());
         EXPECT_EQ(lower, Cell<D>{});
-        // Rounding may cost a cell or two; less would waste bits, and the refinement of
-        // clusters relies on telling the ends apart.
+        // Rounding may cost a cell or two. A greater loss would waste bits, and the refinement of
+        // clusters must distinguish the ends.
         EXPECT_GE(*std::max_element(upper.begin(), upper.end()), this->last_cell - 2);
     }
 }

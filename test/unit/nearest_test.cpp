@@ -1,4 +1,4 @@
-// The nearest vertices: against brute force in exact arithmetic over all points.
+// The nearest vertices, compared with brute force in exact arithmetic over all points.
 #include "query/locate/nearest.hpp"
 #include "support/point_sets.hpp"
 #include "support/sanitized.hpp"
@@ -24,7 +24,7 @@ template <int D> Found<D> nearest(Reader<D> &reader, const Point<D> &p, std::uin
     return found;
 }
 
-/// Vertices, middles of any two, places anywhere, and far away.
+/// Vertices, middles of pairs, arbitrary places, and places far away.
 template <int D> std::vector<Point<D>> places(const std::vector<Point<D>> &points, Random &random) {
     std::vector<Point<D>> result;
     for (int i = 0; i < (sanitized ? 2 : 5); ++i) {
@@ -73,7 +73,7 @@ template <int D> void expect_nearest_of_sets() {
     for (const PointSet<D> &set : point_sets<D>()) {
         SCOPED_TRACE(set.name);
         auto points = set.points(random);
-        constexpr std::size_t most = D == 2 ? 100 : 40; // far apart, they take exact arithmetic
+        constexpr std::size_t most = D == 2 ? 100 : 40; // far apart, they need exact arithmetic
         if (points.size() > most) points.resize(most);
         for (Point<D> &p : points)
             for (double &x : p) x += 0.0;
@@ -87,7 +87,7 @@ template <int D> void expect_nearest_of_sets() {
 TEST(Nearest, EqualsBruteForceInThePlane) { expect_nearest_of_sets<2>(); }
 TEST(Nearest, EqualsBruteForceInSpace) { expect_nearest_of_sets<3>(); }
 
-/// Points of a grid within a shell, and flipped, so that no walk and no edge leads everywhere.
+/// Points of a grid within a shell, with flips, so that no walk and no edge leads everywhere.
 template <int D> void expect_nearest_of_loaded() {
     Random random(2);
     std::vector<Point<D>> grid;

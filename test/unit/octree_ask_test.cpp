@@ -1,4 +1,4 @@
-// What octrees are asked about places, against brute force over all leaves.
+// Answers of octrees about places, compared with brute force over all leaves.
 #include "octree/octree_interpolation.hpp"
 #include "octree/octree_nearest.hpp"
 #include "octree/octree_places.hpp"
@@ -62,13 +62,13 @@ TYPED_TEST(OctreesAsked, read_few_pages_for_the_nearest_leaf) {
         Point<D> place;
         for (double &x : place) x = std::ldexp(static_cast<double>(random() % 1024), -10);
         OctreeNearest<D>(reader).find(place, 1, [](std::uint64_t, Handle, double) {});
-        EXPECT_LE(reader.cache().counters.loads, 2u); // of which the leaf may begin on the first
+        EXPECT_LE(reader.cache().counters.loads, 2u); // two if the leaf begins on the page before
     }
     EXPECT_GT(pages, 10u);
 }
 
-/// The value of a node, by all leaves: of the largest that does not have it as a corner, by the
-/// values of that one's corners; else the mean of those around.
+/// The value of a node by brute force: from the values at the corners of the largest leaf that
+/// touches it without having it as a corner; if there is none, the mean of the leaves around.
 template <int D> class SlowValues {
 public:
     explicit SlowValues(std::vector<Octant<D>> leaves) : leaves_(std::move(leaves)) {}

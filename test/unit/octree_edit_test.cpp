@@ -1,5 +1,5 @@
-// Changes of octrees against a model in memory: leaves split and merged in place, attributes,
-// loading.
+// Changes of octrees, compared with a model in memory: leaves split and merged in place,
+// attributes, loading.
 #include "octree/octree_edit.hpp"
 #include "octree/octree_load.hpp"
 #include "support/octrees.hpp"
@@ -40,7 +40,7 @@ TYPED_TEST(OctreesEdited, are_split_and_merged_in_place) {
     octree.header.facts.census.leaves = model.leaves.size();
     ASSERT_EQ(octree.list(), model.list());
     expect_sound(octree);
-    // And as a whole.
+    // Then the whole octree.
     OctreeEdit<D> edit(h, octree.header, octree.memory, std::size_t{1} << 18);
     edit.merge_at({}, 0);
     EXPECT_EQ(edit.merge(octree.header), model.leaves.size());
@@ -144,7 +144,7 @@ TYPED_TEST(OctreesEdited, are_loaded_leaf_by_leaf) {
     std::vector<Octant<D>> shuffled = leaves;
     std::shuffle(shuffled.begin(), shuffled.end(), octree.random);
     EXPECT_EQ(load(shuffled), leaves);
-    pages = 64; // those of leaves that were merged are given back
+    pages = 64; // the pages of merged leaves are returned
     EXPECT_EQ(load(shuffled), leaves);
     EXPECT_EQ(load({{}}), std::vector<Octant<D>>(1));
 

@@ -1,4 +1,4 @@
-// Growth of octrees against a model in memory: levels, balance, points, sizes.
+// Growth of octrees, compared with a model in memory: levels, balance, points, sizes.
 #include "support/octrees.hpp"
 
 #include <gmock/gmock.h>
@@ -37,7 +37,7 @@ TYPED_TEST(OctreesGrown, are_balanced_as_little_as_can_be) {
             StoredOctree<D> octree;
             OctreeModel<D> model;
             auto cells = random_cells<D>(random, kind == 0 ? 30 : 2, kind == 0 ? 7 : 12);
-            // One deep corner: by the middle of the domain, and by a corner of it.
+            // One deep corner: at the middle of the domain, or at a corner of it.
             if (kind == 2) cells = {{domain_cells<D> / 2 - 1, finest_level<D>}};
             if (kind == 3) cells = {{0, finest_level<D>}, {domain_cells<D> - 1, 9}};
             octree.split_to(cells);
@@ -99,7 +99,7 @@ TYPED_TEST(OctreesGrown, are_as_fine_as_a_function_tells) {
     expect_sound(octree);
 }
 
-// Merged across the borders of pages, a leaf ends beyond its page, and pages behind it are empty.
+// After merges across the borders of pages, a leaf ends beyond its page, and later pages are empty.
 TYPED_TEST(OctreesGrown, are_grown_again_where_leaves_were_merged_across_pages) {
     constexpr int D = TypeParam::value;
     for (const int kind : {0, 1, 2, 3}) {

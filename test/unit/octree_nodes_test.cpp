@@ -1,4 +1,4 @@
-// Nodes, anchors and elements of octrees against a table of all corners.
+// Nodes, anchors and elements of octrees, compared with a table of all corners.
 #include "octree/octree_nodes.hpp"
 #include "support/octrees.hpp"
 
@@ -33,7 +33,7 @@ template <int D> struct Extracted {
     }
 };
 
-/// Whether a leaf has a point, and not as a corner.
+/// Whether a leaf has a point that is not one of its corners.
 template <int D> bool hangs_on(const Octant<D> &leaf, const GridPoint<D> &point) {
     bool is_corner = true;
     const Cell<D> cell = leaf.cell();
@@ -69,7 +69,7 @@ TYPED_TEST(OctreeNodesOf, are_the_corners_of_leaves) {
                 std::find_if(extracted.leaves.begin(), extracted.leaves.end(),
                              [&](const Octant<D> &leaf) { return hangs_on<D>(leaf, node.point); });
             ASSERT_EQ(node.anchors != 0, coarse != extracted.leaves.end());
-            // Anchors do not hang, are corners of the larger leaf, and have the node in the middle.
+            // Anchors do not hang, are corners of the larger leaf, and the node is in their middle.
             std::set<std::uint64_t> anchors;
             GridPoint<D> sum{};
             for (int i = 0; i < node.anchors; ++i) {

@@ -1,5 +1,4 @@
-// Pages of octrees, the cache over them, what is counted, and what happens where pages are damaged
-// or the host fails.
+// Pages of octrees, the cache over them, the counters, and damaged pages or a failing host.
 #include "octree/octree_load.hpp"
 #include "support/octrees.hpp"
 
@@ -11,7 +10,7 @@ namespace {
 template <class T> class OctreePages : public testing::Test {};
 TYPED_TEST_SUITE(OctreePages, Dimensions);
 
-/// Memory that is taken beyond what is in use now, while something is done.
+/// The additional memory that an act takes at its peak.
 template <class Act> std::size_t peak_of(MemoryHost &host, Act act) {
     const std::size_t before = host.bytes;
     host.peak_bytes = before;
@@ -30,7 +29,7 @@ TYPED_TEST(OctreePages, take_no_more_memory_than_they_are_given) {
     const auto merge = [&] { octree.merge(some, 1); };
     EXPECT_LT(peak_of(*octree.host, merge), 8 * block + octree.memory / 2) << "nothing to merge";
 
-    // Places that are fine enough on every page.
+    // Places that are already fine enough, on every page.
     constexpr std::size_t memory = 12 * block;
     const auto refine = [&] {
         const Host h = octree.host->host();
@@ -114,11 +113,11 @@ TYPED_TEST(OctreePages, do_not_depend_on_order_and_memory) {
     std::shuffle(cells.begin(), cells.end(), random);
     b.split_to(cells);
     a.balance(D, std::size_t{64} << 20);
-    b.balance(D, 1); // the least that a sort takes
+    b.balance(D, 1); // the least memory of a sort
     EXPECT_EQ(a.list(), b.list());
     EXPECT_TRUE(b.host->spools.empty());
     ASSERT_EQ(a.host->pages.size(), b.host->pages.size());
-    // At most a byte a leaf.
+    // At most one byte for each leaf.
     std::size_t bytes = 0;
     for (const auto &[key, page] : a.host->pages) bytes += page.size;
     EXPECT_LE(bytes, a.header.facts.census.leaves);

@@ -13,7 +13,7 @@ namespace {
 
 Image image(const Portrait &portrait) { return decode(portrait.png.data(), portrait.png.size()); }
 
-/// A balanced octree whose leaves have their level as a value, or all the same one.
+/// A balanced octree whose leaves have their level as a value, or all the same value.
 template <int D> class Pictured : public StoredOctree<D> {
 public:
     explicit Pictured(bool by_level) : StoredOctree<D>(1) {
@@ -40,7 +40,7 @@ abacus_drawing drawing(int width, int height) {
 TEST(OctreePortrait, has_the_colour_of_the_leaf_at_each_place) {
     const Pictured<2> octree(true);
     const Host h = octree.host->host();
-    // Pixels are as large as the smallest leaves.
+    // Pixels have the size of the smallest leaves.
     const Image all = image(draw_octree(h, octree.header, drawing(64, 64)));
     const auto leaves = octree.list();
     std::map<int, std::uint32_t> colours;
@@ -81,7 +81,7 @@ TEST(OctreePortrait, leaves_out_what_is_long_or_beside_the_window) {
     EXPECT_THROW(draw_octree(h, octree.header, d), Error);
 }
 
-// Sections of leaves tile the plane: with one value all over the picture has one colour.
+// Sections of leaves tile the plane: with one value everywhere the picture has one colour.
 TEST(OctreePortrait, has_sections_without_gap_or_overlap) {
     const Pictured<3> octree(false);
     const Host h = octree.host->host();
@@ -100,7 +100,7 @@ TEST(OctreePortrait, has_sections_without_gap_or_overlap) {
                 ASSERT_LE(difference(pixel, picture(24, 24)), 1) << n;
             ++n;
         }
-    // The sides of the domain are seen, and nothing beyond.
+    // The sides of the domain are visible, and nothing beyond.
     for (int axis = 0; axis < 3; ++axis)
         for (const double side : {0.0, 1.0, -0.001, 1.001}) {
             abacus_section section{{0.5, 0.5, 0.5}, {}, 1};

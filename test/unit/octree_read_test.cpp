@@ -1,4 +1,4 @@
-// Octrees that are read, against a model or brute force: places, windows, neighbours.
+// Reading octrees, compared with a model or brute force: places, windows, neighbours.
 #include "octree/octree_scan.hpp"
 #include "support/octrees.hpp"
 
@@ -96,7 +96,7 @@ TYPED_TEST(OctreesRead, give_all_leaves_and_those_of_a_window) {
     EXPECT_EQ(found, octree.model.list());
 }
 
-/// Places of the grid that a leaf has, up to its upper sides where the domain ends: exact here.
+/// Whether a leaf comes near a place; a leaf has its upper sides where the domain ends. Exact here.
 template <int D> bool comes_near(const Octant<D> &leaf, const Point<D> &center, double radius) {
     const Cell<D> at = leaf.cell();
     double square = 0;
@@ -146,7 +146,7 @@ TYPED_TEST(OctreesRead, know_the_neighbours_of_a_leaf) {
         const Octant<D> leaf = octree.model.find(octree.random() % domain_cells<D>);
         std::set<std::tuple<int, int, std::uint64_t>> expected, found;
         for (const Octant<D> &other : leaves) {
-            // Boxes that overlap on all axes but one, where one ends and the other begins.
+            // Boxes that overlap on all axes but one; there one ends where the other begins.
             const Cell<D> a = leaf.cell(), b = other.cell();
             int axis = -1, side = 0, meets = 0;
             for (int i = 0; i < D; ++i)

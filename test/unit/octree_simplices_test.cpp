@@ -1,4 +1,4 @@
-// Octrees cut into triangles and tetrahedra: they fill each leaf, and fit together.
+// Octrees as triangles and tetrahedra: these fill each leaf, and fit together.
 #include "octree/octree_simplices.hpp"
 #include "support/octrees.hpp"
 
@@ -18,7 +18,7 @@ template <int D> using Corners = std::array<std::uint64_t, D + 1>;
 
 template <int D> struct Mesh {
     std::vector<GridPoint<D>> nodes;
-    std::vector<std::pair<std::uint64_t, Corners<D>>> simplices; // with their elements
+    std::vector<std::pair<std::uint64_t, Corners<D>>> simplices; // with their elements' numbers
 
     explicit Mesh(StoredOctree<D> &octree, std::size_t memory = 1) {
         const Host h = octree.host->host();
@@ -31,7 +31,7 @@ template <int D> struct Mesh {
         EXPECT_TRUE(octree.host->spools.empty());
         EXPECT_THAT(octree.host->violations, testing::IsEmpty());
     }
-    /// Twice the area, or six times the volume; in units of the grid's lines.
+    /// Twice the area, or six times the volume, in units of the grid's lines.
     __int128 size(const Corners<D> &corners) const {
         std::array<std::array<__int128, D>, D> edge;
         for (int i = 0; i < D; ++i)
@@ -76,7 +76,7 @@ template <int D> void expect_conforming(StoredOctree<D> &octree) {
             ++facets[facet];
             is_used[corners[i]] = true;
         }
-        // The least one first; in space the least of the others second.
+        // The least one comes first; in space the least of the others comes second.
         ASSERT_EQ(corners[0], *std::min_element(corners.begin(), corners.end()));
         if (D == 3) {
             ASSERT_EQ(corners[1], *std::min_element(corners.begin() + 1, corners.end()));
@@ -106,7 +106,7 @@ TYPED_TEST(OctreeSimplicesOf, fill_leaves_and_fit_together) {
     }
 }
 
-// In the plane all ways in which smaller leaves can touch a leaf, in space many.
+// In the plane all ways in which smaller leaves can touch a leaf; in space many of them.
 TYPED_TEST(OctreeSimplicesOf, fill_a_leaf_with_any_leaves_around) {
     constexpr int D = TypeParam::value;
     std::mt19937_64 random(22);

@@ -1,4 +1,4 @@
-// Outlines against brute force over all simplices.
+// Outlines, compared with brute force over all simplices.
 #include "geometry/ball.hpp"
 #include "geometry/circumradius.hpp"
 #include "geometry/distance.hpp"
@@ -54,7 +54,7 @@ template <int D> Facet<D> normal(Facet<D> facet) {
     return facet;
 }
 
-/// Facets of the rings, in the plane their edges.
+/// Facets of the rings; in the plane, their edges.
 template <int D> std::multiset<Facet<D>> facets_of(const std::vector<Row> &rows) {
     std::map<std::uint64_t, std::vector<Point<D>>> rings;
     for (const Row &row : rows) {
@@ -142,7 +142,7 @@ template <int D> void expect_outlines_of_sets() {
 TEST(Outlines, OfSetsInThePlane) { expect_outlines_of_sets<2>(); }
 TEST(Outlines, OfSetsInSpace) { expect_outlines_of_sets<3>(); }
 
-/// Every other cell of a grid: parts and holes that meet in vertices alone.
+/// Every second cell of a grid: parts and holes that meet only in vertices.
 template <int D> void expect_outlines_of_pinched(bool is_even) {
     std::vector<Point<D>> grid;
     const int n = D == 2 ? 14 : 5;
@@ -173,7 +173,7 @@ TEST(Outlines, OfPartsAndHolesThatTouch) {
     }
 }
 
-/// Squares within squares, each with a hole: only the outermost is left.
+/// Squares within squares, each with a hole: only the outermost one is kept.
 TEST(Outlines, WithoutHolesAndWhatLiesInThem) {
     std::vector<Point<2>> points;
     for (int x = -33; x <= 33; ++x)
@@ -187,13 +187,13 @@ TEST(Outlines, WithoutHolesAndWhatLiesInThem) {
     ASSERT_EQ(mesh.stage(number<2>(points)), ABACUS_OK);
     ASSERT_EQ(mesh.build(), ABACUS_OK);
     const auto with = read<2>(mesh, {0, 1, 0.5, 0}, little);
-    EXPECT_EQ(with.back().ring, 8u); // four squares, three of them with a hole, and one beside
+    EXPECT_EQ(with.back().ring, 8u); // four squares, three of them with a hole, and one elsewhere
     const auto without = read<2>(mesh, {0, 1, 0.5, 1}, little);
     ASSERT_EQ(without.back().ring, 2u);
     EXPECT_EQ(without.size(), 4u * 66 + 4 * 5);
 }
 
-/// Shells within shells: only the outermost surface is left, and of those beside it.
+/// Shells within shells: only the outermost surface is kept, and those elsewhere.
 TEST(Outlines, WithoutCavitiesAndWhatLiesInThem) {
     std::vector<Point<3>> points;
     for (int x = -5; x <= 5; ++x)
@@ -208,7 +208,7 @@ TEST(Outlines, WithoutCavitiesAndWhatLiesInThem) {
     const auto with = facets_of<3>(read<3>(mesh, {0, 1, 0.75, 0}, little));
     const auto without = facets_of<3>(read<3>(mesh, {0, 1, 0.75, 1}, little));
     EXPECT_TRUE(without == facets_of<3>(read<3>(mesh, {0, 1, 0.75, 1}, 16 << 20)));
-    EXPECT_EQ(without.size(), 2u * 6 * (10 * 10 + 2 * 2)); // of the cube and of the one beside it
+    EXPECT_EQ(without.size(), 2u * 6 * (10 * 10 + 2 * 2)); // of the cube and of the one elsewhere
     EXPECT_GT(with.size(), without.size() + 2 * 6 * 2 * 2);
     EXPECT_TRUE(std::includes(with.begin(), with.end(), without.begin(), without.end()));
 }
@@ -298,7 +298,7 @@ TEST(Outlines, AreAlphaShapesOfCgal) {
 TEST(Circumradius, IsComparedExactly) {
     Random random(3);
     for (int i = 0; i < 200; ++i) {
-        // On a circle of radius 5 around a corner of a grid, exactly.
+        // Exactly on a circle of radius 5 around a corner of a grid.
         const double x = std::ldexp(double(random() % 1000), -10), y = double(random() % 100);
         const Point<2> a{x + 5, y}, b{x - 3, y + 4}, c{x - 4, y - 3};
         const Corners<2> corners{&a, &b, &c};

@@ -1,4 +1,4 @@
-// What pages tell of how many simplices fit into one.
+// What pages show about how many simplices fit into one.
 #include "mesh/simplex_blocks.hpp"
 #include "support/oracle.hpp"
 
@@ -14,7 +14,7 @@ template <class Dimension> class PageCapacities : public testing::Test {
 protected:
     static constexpr int D = Dimension::value;
 
-    /// A mesh whose pages are filled to different degrees, for its points came and went at random
+    /// A mesh whose pages are filled to different degrees, since its points came and went at random
     /// places. All coordinates have the same exponent.
     static void make(MeshOf<D> &mesh) {
         constexpr std::size_t many = D == 2 ? 30000 : 8000, some = many / 20, rounds = 8;
@@ -59,7 +59,7 @@ TYPED_TEST(PageCapacities, AreLearnedFromTheFirstPageAndNotLostByCrumbs) {
     PageCapacity capacity(simplex_pages<D>(0));
     const int guess = capacity.usual();
     EXPECT_GT(guess, 100);
-    EXPECT_EQ(capacity.learn(0, 200), guess); // an empty page tells nothing
+    EXPECT_EQ(capacity.learn(0, 200), guess); // an empty page shows nothing
     const int first = capacity.learn(500, 6000);
     EXPECT_GT(first, 500);
     EXPECT_EQ(capacity.usual(), first);

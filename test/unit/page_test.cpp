@@ -1,4 +1,4 @@
-// The simplex page: what is written is read again, and what was not written is refused.
+// The simplex page: written data can be read again, and anything else is refused.
 #include "mesh/page_writer.hpp"
 #include "support/memory_host.hpp"
 #include "support/patient.hpp"
@@ -15,14 +15,14 @@ namespace {
 
 using Words = std::vector<std::uint64_t>;
 
-/// The words as a column gives them back; checks its size.
+/// The words after writing and reading a column; checks its size.
 Words through_a_column(const Words &words) {
     const ColumnPlan plan(words.data(), words.size());
     std::vector<unsigned char> bytes(plan.size() + 16, 0xaa);
     unsigned char *const deltas = plan.write_head(bytes.data());
     unsigned char *const end = plan.write_deltas(words.data(), deltas);
     EXPECT_EQ(static_cast<std::size_t>(end - bytes.data()), plan.size());
-    bytes.resize(plan.size() + 8); // what a page has behind its columns
+    bytes.resize(plan.size() + 8); // the bytes of a page after its columns
     const unsigned char *at = bytes.data();
     Column column;
     EXPECT_TRUE(column.read_head(at, deltas));
@@ -120,15 +120,15 @@ TEST(Column, ComparesWordsByTheirPrefixes) {
         }
 }
 
-// The child has the facet, the apex opposite, and the other orientation: were the apex where the
-// corner was that it replaces, the order of the two would be an odd permutation of one another.
+// The child has the facet, the apex opposite, and the other orientation. If the apex took the place
+// of the corner that it replaces, the two orders would differ by an odd permutation.
 template <int D, class Word> void expect_children_beyond_their_facets() {
     using Number = std::remove_cvref_t<decltype(Word{}[0])>;
     constexpr Number infinity = 100;
     for (const bool is_ghost : {false, true})
         for (int f = 0; f <= D; ++f)
             for (const Number apex : {Number{50}, infinity}) {
-                if (apex == infinity && is_ghost && f != D) continue; // it would be there twice
+                if (apex == infinity && is_ghost && f != D) continue; // it would occur twice
                 Word parent = Word{} + no_vertex;
                 for (int i = 0; i <= D; ++i) parent[i] = static_cast<Number>(10 + i);
                 if (is_ghost) parent[D] = infinity;
@@ -143,7 +143,7 @@ template <int D, class Word> void expect_children_beyond_their_facets() {
 
                 Word replaced = parent;
                 replaced[f] = apex;
-                int moved = 0; // of an exchange two, which is odd
+                int moved = 0; // an exchange moves two, and is odd
                 for (int i = 0; i <= D; ++i) moved += child[i] != replaced[i];
                 EXPECT_EQ(moved, 2);
                 for (int i = 0; i < lanes; ++i) {
@@ -234,7 +234,7 @@ TEST_F(Square, IsReadAsItWasWritten) {
         }
         EXPECT_EQ(page.parent(0), PageView<2>::no_link);
         EXPECT_EQ(page.parent(1), told ? page_link(0, 1) : PageView<2>::no_link);
-        // Two links lead to codes of vertices in the page, two to others.
+        // Two links lead to codes of vertices in the page, two to other codes.
         ASSERT_EQ(page.links(), 4);
         std::vector<std::uint64_t> codes;
         for (int i = 0; i < 4; ++i) {
@@ -295,7 +295,7 @@ TEST(Pages, WithoutSimplicesAreWrittenToo) {
     VertexHeap<2> vertices(host, 0);
     VertexHeap<2>::Numbering numbered(host);
     Arena<Link> border(host);
-    PageWriter<2> writer(host); // that has not made any page before
+    PageWriter<2> writer(host); // its first page
     writer.order(nullptr, 0, Handle{}, vertices, numbered, border);
     ASSERT_TRUE(writer.finish({5, 6}, {7, 8}, vertices, numbered, nullptr));
     PageView<2> view;
@@ -305,7 +305,7 @@ TEST(Pages, WithoutSimplicesAreWrittenToo) {
 }
 
 TEST(Pages, AreWellFilled) {
-    // Enough for the core to learn how much fits into a page.
+    // Enough for the core to learn how many simplices fit into a page.
     Mesh mesh(0, std::size_t(64) << 20);
     ASSERT_EQ(mesh.stage(random_points(60000, 0)), ABACUS_OK);
     ASSERT_EQ(mesh.build(), ABACUS_OK);

@@ -16,7 +16,7 @@ template <class Dimension> class Places : public testing::Test {};
 using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
 TYPED_TEST_SUITE(Places, Dimensions);
 
-/// Places of all kinds, some more than once, some with the id of another.
+/// Places of all kinds, some more than once, some with another one's id.
 template <int D> std::vector<InputOf<D>> places_in(Large<D> &mesh, int n) {
     constexpr double far = std::numeric_limits<double>::max();
     std::vector<InputOf<D>> places;
@@ -45,7 +45,7 @@ std::vector<LocatedPlace> one_by_one(MeshOf<D> &mesh, const std::vector<InputOf<
     return located;
 }
 
-/// The same answers, in whatever order.
+/// The same answers, in any order.
 template <int D>
 void expect_answers(MeshOf<D> &mesh, const std::vector<LocatedPlace> &located,
                     const std::vector<LocatedPlace> &expected) {
@@ -77,7 +77,7 @@ TYPED_TEST(Places, HaveTheAnswersOfEach) {
             EXPECT_EQ(mesh.host.calls.spool_create > spools, memory == 1);
             EXPECT_EQ(mesh.host.bytes, bytes);
             expect_answers<D>(mesh, located, expected);
-            // The order is that of the places, however much memory there is.
+            // The order is that of the places, whatever the memory.
             std::vector<std::int64_t> ids;
             for (const LocatedPlace &place : located) ids.push_back(place.id);
             if (order.empty()) order = ids;
@@ -88,7 +88,7 @@ TYPED_TEST(Places, HaveTheAnswersOfEach) {
 TYPED_TEST(Places, AreFoundPageByPage) {
     constexpr int D = TypeParam::value;
     Large<D> mesh(D == 2 ? 100000 : 20000);
-    mesh.cache_bytes = std::size_t{4} << 20; // which holds no mesh of so many pages
+    mesh.cache_bytes = std::size_t{4} << 20; // too little for a mesh of so many pages
     std::vector<InputOf<D>> places;
     for (int i = 0; i < 100000; ++i) places.push_back({i, unit_point<D>(mesh.random)});
     const auto calls = mesh.host.calls;
@@ -98,7 +98,7 @@ TYPED_TEST(Places, AreFoundPageByPage) {
     EXPECT_GE(mesh.host.calls.find - calls.find, pages / 2);
     EXPECT_LT(mesh.host.calls.find + mesh.host.calls.fetch - calls.find - calls.fetch,
               pages * (D == 2 ? 6 : 20));
-    EXPECT_GT(places.size(), pages * 100); // one by one: a call each
+    EXPECT_GT(places.size(), pages * 100); // a call for each would take more
 }
 
 TYPED_TEST(Places, OutsideAreReportedAsSuch) {
@@ -111,9 +111,9 @@ TYPED_TEST(Places, OutsideAreReportedAsSuch) {
         ASSERT_EQ(located.size(), 3u);
         for (const LocatedPlace &place : located) EXPECT_FALSE(place.simplex);
     };
-    expect_outside(); // there is nothing
+    expect_outside(); // there is no simplex yet
     ASSERT_EQ(mesh.insert({{1, Point<D>{}}, {2, Point<D>{1}}}), ABACUS_OK);
-    expect_outside(); // nor does this span a simplex
+    expect_outside(); // these do not span a simplex
     std::vector<LocatedPlace> located;
     ASSERT_EQ(locate_places<D>(mesh, {}, located), ABACUS_OK);
     EXPECT_TRUE(located.empty());
@@ -184,12 +184,12 @@ TYPED_TEST(Places, AreReportedAsProgress) {
     EXPECT_EQ(done, places.size());
 }
 
-/// Damaged pages with checksums that are right, intervals included, and pages that are gone: any
-/// answer or error, but nothing else.
+/// Damaged pages with right checksums, even with right intervals, and missing pages: any answer or
+/// error, but nothing else.
 TYPED_TEST(Places, SurviveSealedDamage) {
     constexpr int D = TypeParam::value;
     Large<D> mesh(D == 2 ? 20000 : 4000);
-    const auto places = places_in(mesh, 4000); // so many that boxes are made
+    const auto places = places_in(mesh, 4000); // enough for boxes to be made
     const auto sound = mesh.host.pages;
     for (int trial = 0; trial < 60; ++trial) {
         mesh.host.pages = sound;

@@ -1,4 +1,4 @@
-// Sections of a mesh by a plane: sides against rational numbers, polygons against their convex
+// Sections of a mesh by a plane: sides compared with rational numbers, polygons with their convex
 // hull.
 #include "geometry/cutting_plane.hpp"
 #include "query/lines/plane_section.hpp"
@@ -41,7 +41,7 @@ TEST(CuttingPlane, SidesAreThoseOfRationalNumbers) {
                 }
                 if (normal == Point<3>{}) continue;
                 if (round % 3 == 0) p[round % 2] = std::nextafter(p[round % 2], 1e308);
-                if (round % 7 == 0) normal[0] *= 1e-200; // small beside the others
+                if (round % 7 == 0) normal[0] *= 1e-200; // small compared with the others
                 if (round % 11 == 0) p[1] = 1e308;
                 if (normal == Point<3>{}) continue;
                 const CuttingPlane plane(through, normal);
@@ -82,7 +82,7 @@ Point<3> corner(const abacus_polygon &p, int i) {
     return {p.point[i][0], p.point[i][1], p.point[i][2]};
 }
 
-/// Of a polygon in units of `size`, so that areas are neither too large nor too small for doubles.
+/// A polygon in units of `size`, so that areas are neither too large nor too small for doubles.
 abacus_polygon in_units(abacus_polygon p, double size) {
     for (auto &point : p.point)
         for (double &x : point) x /= size;
@@ -101,7 +101,7 @@ Point<3> unit_vector(const Point<3> &a) {
     return {a[0] / length, a[1] / length, a[2] / length};
 }
 
-/// The area as seen from where the normal points: negative if it is turned.
+/// The area as seen from the direction of the normal: negative if the polygon is turned.
 double area_of(const abacus_polygon &p, const Point<3> &normal) {
     double sum = 0;
     for (int i = 1; i + 1 < p.corners; ++i)
@@ -129,7 +129,7 @@ double hull_area(const std::vector<abacus_polygon> &polygons, const Point<3> &no
     return sum / 2;
 }
 
-/// Sides of polygons that no other has the other way round.
+/// Sides of polygons that no other polygon has in the opposite direction.
 std::map<std::pair<Point<3>, Point<3>>, int> rims(const std::vector<abacus_polygon> &polygons) {
     std::map<std::pair<Point<3>, Point<3>>, int> sides;
     for (const abacus_polygon &p : polygons)
@@ -163,11 +163,11 @@ TEST_P(SectionOfPoints, TilesItsHull) {
         Point<3> through = points[random() % points.size()];
         Point<3> normal{0, 0, 0};
         normal[round % 3] = round % 2 == 0 ? 3 : -0.1;
-        if (round >= 3) normal[(round + 1) % 3] = 2; // across a grid's diagonals
+        if (round >= 3) normal[(round + 1) % 3] = 2; // across the diagonals of a grid
         if (round >= 6)
             for (double &x : normal) x = unit(random) - 0.5;
         auto polygons = section(mesh, plane(through, normal));
-        // What no other polygon has lies on the border of a convex set: in each direction once.
+        // Unshared sides lie on the border of a convex set: one in each direction.
         for (const auto &[side, n] : rims(polygons)) EXPECT_EQ(n, 1);
         for (abacus_polygon &p : polygons) {
             for (int i = 0; i < p.corners; ++i) EXPECT_LE(corner(p, 0), corner(p, i));
@@ -202,7 +202,7 @@ std::vector<Point<3>> grid(int n) {
 TEST(PlaneSection, OfFacetsInThePlane) {
     MeshOf<3> mesh;
     build(mesh, grid(6));
-    // Inside, at the bottom and at the top, from both sides: all of the square.
+    // Inside, at the bottom and at the top, from both sides: the whole square.
     for (const double z : {0.0, 2.0, 5.0})
         for (const double up : {1.0, -2.5}) {
             const Point<3> normal{0, 0, up > 0 ? 1.0 : -1.0};
@@ -217,7 +217,7 @@ TEST(PlaneSection, OfFacetsInThePlane) {
         }
     for (const double z : {-0.1, 5.1})
         EXPECT_TRUE(section(mesh, plane({0, 0, z}, {0, 0, 1})).empty());
-    // Along an edge of the cube: no more than that edge.
+    // Along an edge of the cube: only that edge.
     EXPECT_TRUE(section(mesh, plane({0, 0, 0}, {1, 1, 0})).empty());
     EXPECT_TRUE(section(mesh, plane({5, 5, 5}, {1, 1, 1})).empty());
 }

@@ -52,7 +52,7 @@ template <int D> int exact_position(const Corners<D> &c, const Point<D> &p) {
             .bounded_side(cgal<D>(p));
 }
 
-/// CGAL's triangulations own the perturbation; what decides is protected.
+/// CGAL's triangulations contain the perturbation; the deciding functions are protected.
 class Perturbed2 : public CGAL::Delaunay_triangulation_2<Kernel> {
 public:
     int in_sphere(const Corners<2> &c, const abacus::Point<2> &p) const {
@@ -77,15 +77,15 @@ struct Source {
 
 double unit(Random &r) { return std::uniform_real_distribution<double>(-1, 1)(r); }
 
-/// An integer of so many bits, every other time one next to the ends of their range.
+/// An integer with this many bits, every second time next to the ends of their range.
 double lattice(Random &r, int bits) {
     const std::uint64_t end = std::uint64_t{1} << bits;
     if (r() % 2) return double(r() % end);
     return r() % 2 ? double(r() % 3) : double(end - 1 - r() % 3);
 }
 
-/// Numbers with drawn exponents. Each draw is a statement of its own, so that they are in one
-/// order, whatever the compiler.
+/// Numbers with drawn exponents. Each draw is a statement of its own, so that the order is the same
+/// with every compiler.
 std::function<double(Random &)> powers(int (*exponent)(Random &)) {
     return [exponent](Random &r) {
         const double mantissa = unit(r);
@@ -97,7 +97,7 @@ const Source sources[] = {
     {"uniform", unit},
     {"tiny_grid", [](Random &r) { return double(r() % 4); }},
     {"grid", [](Random &r) { return double(r() % 1000) - 500; }},
-    // At the widths up to which integers hold the determinants, and beyond.
+    // At the bit widths up to which integers are large enough for the determinants, and beyond.
     {"grid_of_24_bits", [](Random &r) { return lattice(r, 24); }},
     {"grid_of_25_bits", [](Random &r) { return lattice(r, 25); }},
     {"grid_of_30_bits", [](Random &r) { return lattice(r, 30); }},
@@ -119,19 +119,19 @@ const Source sources[] = {
     {"largest_grid",
      [](Random &r) { return (double(r() % 3) - 1) * std::numeric_limits<double>::max(); }},
     {"all_exponents", powers([](Random &r) { return int(r() % 2040) - 1020; })},
-    // Products of small ones underflow, and are multiplied by large ones.
+    // Products of small numbers underflow, and are multiplied by large ones.
     {"far_apart_exponents",
      powers([](Random &r) { return r() % 3 == 0 ? 1000 : -int(r() % 560) - 20; })},
-    // Differences that are exact, the smallest beyond any common unit with the largest.
+    // Differences that are exact, but have no common unit for the smallest and the largest.
     {"grids_far_apart",
      [](Random &r) {
          const double step = double(r() % 4);
          return std::ldexp(step, r() % 3 == 0 ? -int(r() % 1074) : 700);
      }},
-    // Squares and products of pairs come to the least double, and are multiplied by large ones.
+    // Squares and products of pairs reach the least double, and are multiplied by large numbers.
     {"products_underflow",
      powers([](Random &r) { return r() % 8 == 0 ? 400 : -int(r() % 60) - 510; })},
-    // What is compared comes to a few of the least double.
+    // The compared values are a few times the least double.
     {"least_squares", powers([](Random &r) { return int(r() % 8) - 540; })},
     {"least_cubes", powers([](Random &r) { return int(r() % 8) - 360; })},
     {"least_fourth_powers", powers([](Random &r) { return int(r() % 8) - 272; })},
@@ -176,7 +176,7 @@ protected:
             if (round % 16 == 0) p = points[random() % (D + 1)];
             const int sign = orientation<D>(corners);
             ASSERT_EQ(sign, exact_orientation<D>(corners));
-            // What is behind the filter, also where that decides.
+            // Also the code after the filter, where the filter decides.
             ASSERT_EQ(unfiltered_orientation<D>(corners), sign);
             degenerate += sign == 0;
             if (sign < 0) std::swap(corners[0], corners[1]);
@@ -190,14 +190,14 @@ protected:
             ASSERT_EQ(side, triangulation.in_sphere(corners, p));
             ASSERT_EQ(exact::in_sphere<D>(corners, p), side);
             parts_are_right_where_they_are_sure(corners, p, side);
-            // The same for every even order of the corners.
+            // The same for every even permutation of the corners.
             std::rotate(corners.begin(), corners.begin() + 1, corners.begin() + 3);
             ASSERT_EQ(in_sphere(corners, p), side);
         }
         RecordProperty("degenerate", degenerate);
     }
 
-    /// The triangle seen across each of its edges.
+    /// The triangle as seen across each of its edges.
     void parts_are_right_where_they_are_sure(const Corners<2> &corners, const Point<2> &p,
                                              int side) {
         for (int i = 0; i < 3; ++i) {
@@ -205,14 +205,14 @@ protected:
                                c = seen(*corners[(i + 2) % 3], p);
             const InCircle test = in_circle(a, b, cross(a, b), c);
             ASSERT_TRUE(!test.is_sure || test.is_inside == (side > 0));
-            // What the next tests are given: no number where there was an overflow.
+            // The input of the next tests: NaN after an overflow.
             const auto equal = [](double x, double y) { return x == y || (x != x && y != y); };
             ASSERT_TRUE(equal(test.cross_ac, cross(a, c)));
             ASSERT_TRUE(equal(test.cross_cb, cross(c, b)));
         }
     }
 
-    /// The tetrahedron seen across each of its facets, in each order of these.
+    /// The tetrahedron as seen across each of its facets, in each order of these.
     void parts_are_right_where_they_are_sure(const Corners<3> &corners, const Point<3> &p,
                                              int side) {
         std::array<int, 4> order{0, 1, 2, 3};
@@ -322,7 +322,7 @@ TEST(Predicates, InSphereIsMostlySureAndNeverOfThePointAtInfinity) {
     EXPECT_GT(sure, 990);
 }
 
-// Integers would hold the determinant if the least coordinate were 0.
+// Integers would be large enough for the determinant if the least coordinate were 0.
 TEST(Predicates, SeeTheLeastCoordinateBesideTheLargest) {
     for (const double tiny : {5e-324, 1e-300, 1e-200, 1e-170}) {
         const double large = 0x1p600;
@@ -340,7 +340,7 @@ TEST(Predicates, SeeTheLeastCoordinateBesideTheLargest) {
 }
 
 TEST(Predicates, PerturbationDecidesConsistently) {
-    // Of the two ways to cut a square exactly one is Delaunay, whatever the order.
+    // Exactly one of the two ways to cut a square is Delaunay, whatever the order.
     std::array<Point<2>, 4> square{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}};
     for (int i = 0; i < 4; ++i) {
         const auto &a = square[i], &b = square[(i + 1) % 4], &c = square[(i + 2) % 4],
@@ -356,7 +356,7 @@ TEST(Predicates, HullFacetHoldsWhatLiesStrictlyBetweenItsEnds) {
     };
     Random random(1);
     for (int round = 0; round < 1000; ++round) {
-        // On a line with exact points.
+        // On a line, with exact points.
         const double dx = double(random() % 7) - 3, dy = double(random() % 7) - 3;
         if (dx == 0 && dy == 0) continue;
         const auto at = [&](int t) { return Point<2>{5 + t * dx, -3 + t * dy}; };

@@ -1,5 +1,5 @@
-// Inputs on which other implementations failed, as reported in their trackers, or made
-// by the recipe given there.
+// Inputs on which other implementations failed, as reported in their trackers, or made by the
+// recipe given there.
 #include "support/oracle.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,5 @@
-// The earthquake points are the nodes of a stored octree, made as any is: by sizes, then balanced.
+// The earthquake points are the nodes of a stored octree, made like any other: by sizes, then
+// balanced.
 #include "octree/octree_nodes.hpp"
 #include "quake/quake_points.hpp"
 #include "support/octree_model.hpp"
@@ -12,7 +13,7 @@ namespace {
 
 constexpr double frequency = 0.04, points_per_wavelength = 8;
 
-/// Octants are as small as their wavelength asks for, within the basin.
+/// Octants within the basin are as small as their wavelength requires.
 abacus_host_status size_of(void *, std::size_t count, const double *const *centers,
                            const double *edges, double *sizes) {
     for (std::size_t k = 0; k < count; ++k) {

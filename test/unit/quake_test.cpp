@@ -1,4 +1,4 @@
-// The earthquake data sets against an octree made the plain way: leaves in a map,
+// The earthquake data sets, compared with an octree made in the simplest way: leaves in a map,
 // split until the wavelength is resolved, then until no leaf presses another.
 #include "host/host.hpp"
 #include "keys/locational_code.hpp"
@@ -159,7 +159,7 @@ INSTANTIATE_TEST_SUITE_P(Frequencies, QuakeSet,
                                          Case{0.02, 8}, Case{0.03, 5}, Case{0.05, 8},
                                          Case{0.05, 10}, Case{0.075, 8}));
 
-// Only the product of the two counts, however far they lie apart.
+// Only the product of the two matters, however different they are.
 TEST(QuakeSet, TakesFactorsOfAnySize) {
     const double greatest = std::numeric_limits<double>::max();
     const double least = std::numeric_limits<double>::denorm_min();
@@ -178,7 +178,7 @@ TEST(QuakeSet, TakesFactorsOfAnySize) {
     }
 }
 
-// What the bound of a box promises, and the refinement with it.
+// The guarantee of a box's bound, and of the refinement by it.
 TEST(QuakeSet, LeavesResolveTheWavelength) {
     const double frequency = 0.05, points_per_wavelength = 8;
     const PlainOctree octree(frequency, points_per_wavelength);
@@ -203,7 +203,7 @@ TEST(QuakeSet, LeavesResolveTheWavelength) {
     EXPECT_GT(refined_by_balance, 100) << "the case tests balance";
 }
 
-// The numbers of the documentation; the same on every machine.
+// The numbers in the documentation; the same on every machine.
 TEST(QuakeSet, HasItsDocumentedSize) {
     auto points = std::make_unique<QuakePoints>(0.1);
     QuakePoint point, last{};
@@ -224,7 +224,7 @@ TEST(QuakeSet, HasItsDocumentedSize) {
     EXPECT_EQ(greatest_z, 0);
 }
 
-// Every bit of it, whatever compiler and machine.
+// To the last bit, with any compiler and machine.
 TEST(QuakeSet, IsTheSameEverywhere) {
     auto points = std::make_unique<QuakePoints>(0.05);
     QuakePoint point;
@@ -279,7 +279,7 @@ TEST(QuakeSet, RefusesArgumentsOutOfRange) {
     }
 }
 
-// The deepest octree there can be starts at once and goes on evenly.
+// The deepest possible octree starts at once and streams evenly.
 TEST(QuakeSet, StreamsAtTheHighestFrequency) {
     auto points = std::make_unique<QuakePoints>(262);
     QuakePoint point;

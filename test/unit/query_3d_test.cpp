@@ -1,5 +1,5 @@
-// Locating, walking and scanning tetrahedra: against brute force over all of them, which
-// the tetrahedralization tests compare with CGAL, and against CGAL's own point location.
+// Locating, walking and scanning tetrahedra, compared with brute force over all of them, which the
+// tetrahedralization tests compare with CGAL, and with CGAL's own point location.
 #include "support/containment.hpp"
 
 #include <CGAL/Delaunay_triangulation_3.h>
@@ -45,7 +45,7 @@ void build(Mesh3 &mesh, std::vector<InputOf<3>> input, unsigned seed = 0) {
     ASSERT_EQ(mesh.build(), ABACUS_OK) << mesh.error.message << mesh.error.detail;
 }
 
-/// The facet opposite corner i, its ids in order.
+/// The facet opposite corner i, with its ids in order.
 Facet facet(const abacus_simplex &s, int i) {
     Facet ids{s.id[(i + 1) % 4], s.id[(i + 2) % 4], s.id[(i + 3) % 4]};
     std::sort(ids.begin(), ids.end());
@@ -199,7 +199,7 @@ TEST(ScanInSpace, GivesPositiveTetrahedraAndAClosedHull) {
         }
         EXPECT_EQ(finite, mesh.header.facts.census.simplices);
         EXPECT_EQ(ghosts, mesh.header.facts.census.ghosts);
-        EXPECT_EQ(2 * edges.size(), 6 * ghosts); // each once, and once the other way
+        EXPECT_EQ(2 * edges.size(), 6 * ghosts); // each once in both directions
         for (const auto &[edge, count] : edges) {
             EXPECT_EQ(count, 1);
             EXPECT_TRUE(edges.count({edge.second, edge.first}));

@@ -1,5 +1,5 @@
-// Locating, walking and scanning: against brute force over all triangles, which the
-// triangulation tests compare with CGAL, and against CGAL's own point location.
+// Locating, walking and scanning, compared with brute force over all triangles, which the
+// triangulation tests compare with CGAL, and with CGAL's own point location.
 #include "support/containment.hpp"
 
 #include <CGAL/Delaunay_triangulation_2.h>
@@ -188,7 +188,7 @@ TEST(Walk, RefusesWhatTheMeshDoesNotHave) {
 }
 
 TEST(Walk, RefusesWhatIdsDoNotTellApart) {
-    // All around one vertex have its code, which is the greatest; for a large mesh on many pages.
+    // All triangles around one vertex have its code, the greatest; in a large mesh on many pages.
     for (const int n : {8, 3000}) {
         std::vector<Input> points = {{1, {0, 0}}};
         for (int i = 0; i < n; ++i) {
@@ -235,7 +235,7 @@ TEST(Walk, LeavesOutTheCornerAskedForWhereIdsAreEqual) {
         if (s.id[0] != s.id[1] && s.id[1] != s.id[2] && s.id[2] != s.id[0]) continue;
         for (int facet = 0; facet < 3; ++facet) {
             abacus_simplex found;
-            if (open.walk(s, facet, found) != ABACUS_OK) continue; // the hull, or not the only one
+            if (open.walk(s, facet, found) != ABACUS_OK) continue; // the hull, or not unique
             ++walked;
             for (int i = 0; i < 3; ++i) {
                 const auto is_it = [&](const double *corner) {
@@ -250,7 +250,7 @@ TEST(Walk, LeavesOutTheCornerAskedForWhereIdsAreEqual) {
 }
 
 TEST(Walk, KeepsToItsMemoryWhereManyPagesShareACode) {
-    // They lie far below the resolution of the codes, in a domain that was given.
+    // They are far below the resolution of the codes, in a given domain.
     std::vector<Input> points = number(unit_square_points(40000, 3));
     for (Input &p : points)
         for (double &x : p.point) x = 0.3 + x * 1e-11;
@@ -283,7 +283,7 @@ TEST(Walk, LooksIntoFewOfThePagesThatShareACode) {
     std::vector<Input> points = number(unit_square_points(40000, 3));
     for (Input &p : points)
         for (double &x : p.point) x = 0.3 + x * 1e-11;
-    for (int i = 0; i < 40000; ++i) // most are elsewhere: the domain is theirs
+    for (int i = 0; i < 40000; ++i) // most are elsewhere, and decide the domain
         points.push_back({std::int64_t(points.size()), {0.001 * (i % 200), 0.001 * (i / 200)}});
     Mesh mesh(0, ample);
     build(mesh, points);
@@ -343,7 +343,7 @@ TEST(Scan, GivesTheHullAsGhosts) {
 }
 
 TEST(VertexScan, TracesEveryPointToItsVertex) {
-    // Repetitions within a staging, and of earlier stagings; the last one still waits.
+    // Repetitions within a staging, and of earlier stagings; the last staging still waits.
     Random random(13);
     const auto any = [&] { return Point<2>{double(random() % 40), double(random() % 40)}; };
     Mesh mesh(1, little);

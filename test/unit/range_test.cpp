@@ -1,4 +1,5 @@
-// The pages of a region: all of its simplices are there, each page is read once, and few others.
+// The pages of a region: they contain all its simplices, each is read once, and few others are
+// read.
 #include "keys/domain_of.hpp"
 #include "query/pages/page_simplex.hpp"
 #include "query/scan/range_scan.hpp"
@@ -37,7 +38,7 @@ template <int D> Box<D> around(const Point<D> &a, const Point<D> &b) {
     return box;
 }
 
-/// Boxes large and small, inside and outside, some of which touch the mesh or are flat.
+/// Large and small boxes, inside and outside; some touch the mesh or are flat.
 template <int D> std::vector<Box<D>> boxes(const std::vector<Point<D>> &points, Random &random) {
     std::vector<Box<D>> result;
     const auto any = [&]() -> const Point<D> & { return points[random() % points.size()]; };
@@ -60,7 +61,7 @@ template <int D> std::vector<Box<D>> boxes(const std::vector<Point<D>> &points, 
         result.push_back(around<D>(moved(p, 3), moved(p, 3)));
         const Point<D> q = moved(p, 6); // mostly outside
         result.push_back(around<D>(q, moved(q, 0.5)));
-        // Beside the mesh, touching its box, along a side.
+        // Beside the mesh, touching its box along a side.
         Box<D> beside = around<D>(p, any());
         const int axis = static_cast<int>(random() % D);
         beside.lower[axis] = beside.upper[axis] = all.upper[axis];
@@ -185,10 +186,10 @@ TYPED_TEST(Range, ReadsFewPages) {
     std::uint64_t pages;
     EXPECT_FALSE(read<D>(mesh, around<D>(lower, upper), &pages).empty());
     EXPECT_LE(pages, D == 2 ? 20u : 50u);
-    // Far outside the first facet of the hull tells.
+    // Far outside, the first facet of the hull is enough.
     EXPECT_TRUE(read<D>(mesh, around<D>(far, far), &pages).empty());
     EXPECT_LE(pages, D == 2 ? 10u : 30u);
-    // Of a large window every page, once.
+    // For a large window, every page once.
     lower.fill(-1);
     EXPECT_EQ(read<D>(mesh, around<D>(lower, far), &pages).size(),
               mesh.header.facts.census.simplices);

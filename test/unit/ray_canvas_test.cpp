@@ -1,5 +1,5 @@
-// Pictures of what is inside: what the rays of all pixels meet against rays that are cut off at
-// every facet, and meshes whose facets lie along the rays.
+// Pictures of the inside: the rays of all pixels, compared with rays that are cut off at every
+// facet; and meshes with facets along the rays.
 #include "draw/ray_canvas.hpp"
 #include "support/image.hpp"
 #include "support/large_mesh.hpp"
@@ -54,7 +54,7 @@ struct Scene {
         return canvas;
     }
 
-    /// Of which a value is how far ahead it is.
+    /// A picture whose values are depths.
     RayCanvas depths(const Camera &seen, abacus_ray_mode mode) {
         return canvas(
             seen, [&](const Point<3> &p) { return seen.see(p, 0).seen[2]; }, mode);
@@ -84,7 +84,7 @@ struct Chord {
     double least = INFINITY, greatest = -INFINITY;
 };
 
-/// What a ray meets from `from` in a direction of length 1.
+/// The part of the mesh on a ray from `from` in a direction of length 1.
 Chord follow(const Scene &scene, const Point<3> &from, const Point<3> &direction,
              const Field &field) {
     Chord chord;
@@ -128,7 +128,7 @@ std::vector<Point<3>> in_a_cube(int n) {
 
 double sloping(const Point<3> &p) { return 3 + p[0] - 2 * p[1] + 0.5 * p[2]; }
 
-/// The ray of a pixel of a picture with perspective: where it begins, and a direction of length 1.
+/// The ray of a pixel in a perspective picture: its beginning, and a direction of length 1.
 std::pair<Point<3>, Point<3>> ray(const abacus_camera &given, int width, int height, int x, int y) {
     const Point<3> eye{given.eye[0], given.eye[1], given.eye[2]};
     const Point<3> ahead =
@@ -154,7 +154,7 @@ void expect_rays(const abacus_camera &given, Scene &scene) {
         for (int x = 0; x < 24; ++x) {
             const auto [from, direction] = ray(given, 24, 20, x, y);
             const Chord chord = follow(scene, from, direction, sloping);
-            if (!(chord.length > 0.1)) continue; // the outline is as good as a step of a pixel
+            if (!(chord.length > 0.1)) continue; // near the outline, steps of a pixel matter
             ++met;
             EXPECT_NEAR(length.value(x, y), chord.length, 0.02);
             EXPECT_NEAR(sum.value(x, y), chord.sum, 0.08);
@@ -169,7 +169,7 @@ TEST(RayCanvas, MeetsWhatRaysMeetInPerspective) {
     Scene scene(in_a_cube(150));
     expect_rays(camera({0.3, -2, 0.4}, {0.5, 0.5, 0.5}, 40), scene);
     expect_rays(camera({-1.5, 2.5, 2}, {0.5, 0.5, 0.5}, 30), scene);
-    expect_rays(camera({0.45, 0.51, 0.52}, {0.9, 0.7, 0.6}, 100), scene); // amid it
+    expect_rays(camera({0.45, 0.51, 0.52}, {0.9, 0.7, 0.6}, 100), scene); // inside it
     expect_rays(camera({0.5, 0.5, 0.5}, {0.5, 1, 0.5}, 60), scene);
 }
 
@@ -188,7 +188,7 @@ TEST(RayCanvas, MeetsEachTetrahedronOfAGridOnce) {
         for (int y = 1; y < 15; ++y)
             for (int x = 1; x < 15; ++x) EXPECT_NEAR(canvas.value(x, y), 8, 1e-9) << x << ' ' << y;
     }
-    // ... at the corners of the cells, of which those at the upper left are of the mesh.
+    // ... at the corners of the cells, where the upper left ones belong to the mesh.
     Camera seen(camera({4, -9, 4}, {4, 0, 4}), drawing(9, 9), scene.box);
     const Point<2> a = seen.place({-0.5, 0, 8.5}), b = seen.place({8.5, 0, -0.5});
     seen.fit(Box<2>(a, b));
@@ -207,8 +207,8 @@ TEST(RayCanvas, MeetsEachTetrahedronOfAGridOnce) {
 
 class RaysThroughPoints : public testing::TestWithParam<PointSet<3>> {};
 
-/// No ray slips through the mesh, and none is counted twice: the lengths that the tetrahedra give
-/// are those that the hull alone gives.
+/// No ray slips through the mesh, and none is counted twice: the tetrahedra give the same lengths
+/// as the hull alone.
 TEST_P(RaysThroughPoints, HasNoCracks) {
     Random random(8);
     std::vector<Point<3>> points = GetParam().points(random);
@@ -218,7 +218,7 @@ TEST_P(RaysThroughPoints, HasNoCracks) {
     for (const double field_of_view : {0.0, 50.0}) {
         abacus_camera given{};
         given.field_of_view = field_of_view;
-        if (field_of_view > 0 && scene.box.upper[0] > 1e307) continue; // no eye is so far away
+        if (field_of_view > 0 && scene.box.upper[0] > 1e307) continue; // no eye is that far away
         Camera seen(given, drawing(60, 60), scene.box);
         if (seen.has_parallel_rays()) {
             Box<2> around;
@@ -227,7 +227,7 @@ TEST_P(RaysThroughPoints, HasNoCracks) {
         }
         const RayCanvas canvas = scene.canvas(seen, one, ABACUS_RAY_SUM);
         const RayCanvas mean = scene.canvas(seen, one, ABACUS_RAY_MEAN);
-        // Where rays enter and leave the mesh as a whole.
+        // The places where rays enter and leave the whole mesh.
         const RayCanvas first = scene.depths(seen, ABACUS_RAY_MIN);
         const RayCanvas last = scene.depths(seen, ABACUS_RAY_MAX);
         int met = 0;
@@ -239,7 +239,7 @@ TEST_P(RaysThroughPoints, HasNoCracks) {
                 ++met;
                 EXPECT_NEAR(mean.value(x, y), 1, 1e-12);
                 if (std::isfinite(way * unit)) {
-                    // What is turned inside out may be the first or the last.
+                    // A tetrahedron that is turned inside out may be the first or the last.
                     EXPECT_NEAR(canvas.value(x, y) / unit, way, 0.01 * way + 0.002 + 1e-323 / unit)
                         << x << ' ' << y;
                 } else {

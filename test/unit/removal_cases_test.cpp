@@ -1,5 +1,5 @@
-// Removal in particular: mixed with insertion, of vertices with very many neighbours, down
-// to the collapse, with attributes; and what it does to pages, counters and failures.
+// Special cases of removal: mixed with insertion, of vertices with very many neighbours, down to
+// the collapse, with attributes; and its effects on pages, counters and failures.
 #include "support/mesh_in_change.hpp"
 #include "support/point_sets.hpp"
 #include "support/sanitized.hpp"
@@ -24,7 +24,7 @@ template <int D> Domain<D> cube(double lower, double upper) {
 
 // ---- In turns with insertion ------------------------------------------------------
 
-/// Points of a small grid come and go at random; some are asked for that are not there.
+/// Points of a small grid come and go at random; some that are requested do not exist.
 template <int D> void insert_and_remove(int grid, int steps, int verified_every) {
     Random random(D);
     const auto any = [&] {
@@ -61,7 +61,7 @@ TEST(RemovalInTurns, InSpace) { insert_and_remove<3>(12, 5000 / scale, 200); }
 
 // ---- Very many neighbours -----------------------------------------------------------
 
-/// A mesh of the points and the hub, without the hub again.
+/// Inserts the points and the hub, and removes the hub again.
 template <int D> void remove_hub(const std::vector<Point<D>> &points, const Point<D> &hub) {
     auto all = points;
     all.push_back(hub);
@@ -73,7 +73,7 @@ template <int D> void remove_hub(const std::vector<Point<D>> &points, const Poin
     ASSERT_TRUE(mesh.build(all));
     ASSERT_EQ(mesh.removal.remove(hub), Removed::removed);
     mesh.verify(points);
-    // And back again: the two operations undo each other.
+    // The two operations undo each other.
     ASSERT_TRUE(mesh.insertion.insert(hub, 0, nullptr));
     mesh.verify(all);
 }
@@ -119,7 +119,7 @@ TEST(RemovalOfAHub, ApexOverABumpyGrid) {
     remove_hub<3>(points, {side / 2.0, side / 2.0, 1e6});
 }
 
-/// On the moment curve, where all are neighbours of all.
+/// On the moment curve, where all points are neighbours.
 Point<3> on_moment_curve(double t) { return {t, t * t, t * t * t}; }
 
 TEST(RemovalOfAHub, OfAMomentCurve) {
@@ -146,7 +146,7 @@ TEST(RemovalOfAHub, BetweenTwoSkewLines) {
     remove_hub<3>(points, {0.75, 0, -50});
 }
 
-/// The mesh of a hub's neighbours stays as small as the hole, where their triangulation has a
+/// The mesh of a hub's neighbours stays as small as the hole, even if their triangulation has a
 /// simplex for every pair of them.
 TEST(LinkMesh, HasNoMoreThanTheHole) {
     constexpr int n = 400;
@@ -175,7 +175,7 @@ template <int D> void expect_collapse(const std::vector<Point<D>> &points, const
     ASSERT_TRUE(mesh.build(all));
     const auto deleted = mesh.cache.counters.deleted;
     ASSERT_EQ(mesh.removal.remove(last), Removed::collapses);
-    // The others are told, and nothing has changed.
+    // The removal reports the neighbours, and nothing has changed.
     std::vector<Point<D>> left;
     mesh.removal.each_neighbour([&](VertexIndex v) { left.push_back(mesh.cache.point(v)); });
     EXPECT_EQ(distinct(left), distinct(points));
@@ -197,7 +197,7 @@ TEST(Collapse, IsToldBeforeAnythingIsChanged) {
     expect_collapse<3>(plane, {4, 4, 4});
 }
 TEST(Collapse, IsNoneIfTheNeighboursSpanASimplex) {
-    // Every simplex contains the vertex, but the others do without it.
+    // Every simplex contains the vertex, but the other points span simplices without it.
     MeshInChange<2> square(cube<2>(-1, 1), little);
     ASSERT_TRUE(square.build({{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {0, 0}}));
     ASSERT_EQ(square.removal.remove({0, 0}), Removed::removed);
@@ -250,7 +250,7 @@ template <int D> void rename_all() {
     }
     EXPECT_FALSE(mesh.removal.rename(cube<D>(0, 1).upper(), 0, nullptr));
     mesh.cache.flush();
-    // In every page, which load() compares with one another.
+    // In every page; load() compares the pages with one another.
     Cache<D> fresh(mesh.host(), mesh.cache.domain(), 1, {.budget = ample});
     std::set<std::int64_t> ids;
     for (Key key = first_key; key < end_key;)
@@ -283,7 +283,7 @@ TEST(Removal, LeavesNoEmptyPagesThatWereNeverStored) {
     EXPECT_LE(mesh.memory().pages.size(), 2u);
 }
 
-/// Removes points one by one until so many are left.
+/// Removes points one by one until this many are left.
 template <int D, class Points>
 void remove_down_to(MeshInChange<D> &mesh, Points &points, std::size_t left) {
     for (; points.size() > left; points.pop_back())
@@ -308,7 +308,7 @@ template <int D> void merge_stored_pages(std::size_t count) {
     mesh.cache.flush();
     const double before = bytes_a_simplex(mesh);
     const std::size_t pages = mesh.memory().pages.size();
-    // Every other point, along the curve.
+    // Every second point along the curve.
     std::vector<Point<D>> left;
     for (std::size_t i = 0; i < points.size(); ++i)
         if (i % 2 == 0)
@@ -350,11 +350,11 @@ TEST(Removal, IsCounted) {
     const abacus_counters &counters = mesh.cache.counters;
     EXPECT_EQ(counters.removals, 100u);
     EXPECT_EQ(counters.insertions, 0u);
-    EXPECT_EQ(counters.deleted - counters.created, 200u); // in 2D two triangles a vertex
+    EXPECT_EQ(counters.deleted - counters.created, 200u); // in 2D two triangles for each vertex
 }
 
-/// Removes half of the points; the n-th fallible call fails, or memory ends at the n-th
-/// request. Returns whether the work got to its end.
+/// Removes half of the points. The n-th fallible call fails, or memory ends at the n-th request.
+/// Returns whether the work was completed.
 template <int D>
 bool remove_and_fail(MemoryHost &stored, const MeshInChange<D> &from,
                      const std::vector<Point<D>> &points, std::uint64_t n, bool memory_ends) {

@@ -1,5 +1,5 @@
-// After each removal the mesh is CGAL's Delaunay triangulation of the points that are
-// left, whatever the input, the order and the size of the cache.
+// After each removal the mesh is CGAL's Delaunay triangulation of the remaining points, whatever
+// the input, the order and the size of the cache.
 #include "support/mesh_in_change.hpp"
 #include "support/point_sets.hpp"
 #include "support/sanitized.hpp"
@@ -7,10 +7,10 @@
 namespace abacus::test {
 namespace {
 
-// A cache of three blocks or so: everything is evicted and loaded again all the time.
+// A cache of about three blocks: everything is evicted and loaded again all the time.
 constexpr std::size_t little = 60 << 10;
 
-// Of each input, a part.
+// Only a part of each input.
 const std::size_t scale = sanitized ? 10 : 2;
 
 template <int D> void remove_all(std::vector<Point<D>> points, std::size_t cache_bytes) {

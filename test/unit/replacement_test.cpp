@@ -1,4 +1,4 @@
-// Which blocks leave: those behind the front, then the farthest ahead, never what is in use.
+// Which blocks leave: those behind the front, then the farthest ahead, never blocks in use.
 #include "blocks/replacement.hpp"
 
 #include "support/memory_host.hpp"
@@ -20,10 +20,10 @@ public:
             block = Block{};
             block.state = Block::cached;
             block.own({b * 10, 0}, {b * 10 + 10, 0});
-            block.used_at = b < n / 2 ? 5000 + b : b; // those behind have been used last
+            block.used_at = b < n / 2 ? 5000 + b : b; // blocks behind were used last
         }
     }
-    /// The next to leave, when the front is at the middle.
+    /// The next to leave, with the front at the middle.
     std::vector<BlockIndex> next(Replacement &replacement) {
         Arena<BlockIndex> victims(host_);
         replacement.choose(list, count, 10000, victims);
@@ -60,7 +60,7 @@ TEST(Replacement, TakesTheFarthestAheadWhileTheWindowIsNotFull) {
     Replacement replacement(blocks.host(), 0, {});
     replacement.reached(250 * 10);
     EXPECT_EQ(blocks.next(replacement), range(2000 - 64, 2000));
-    // ... but none that is in use
+    // ... but none in use
     for (std::uint32_t b = 1900; b < 2000; ++b) blocks.list[BlockIndex{b}].used_at = 9999;
     EXPECT_EQ(blocks.next(replacement), range(1900 - 64, 1900));
 }

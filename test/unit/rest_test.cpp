@@ -1,5 +1,5 @@
-// Deletions that cost more than triangulating the points that are left: then these are
-// triangulated, and it is the same mesh.
+// If deletions would cost more than triangulating the remaining points, these are triangulated
+// instead, and the mesh is the same.
 #include "change/outlay.hpp"
 #include "support/point_model.hpp"
 #include "support/sanitized.hpp"
@@ -23,8 +23,8 @@ protected:
         to.push_back({next_id, p, {double(next_id) / 4}});
         ++next_id;
     }
-    /// On a circle or around a sphere, on a line and in a grid of its plane: all of it in the plane
-    /// x + y = 0, or not.
+    /// If `flat`, points on a line, or on a grid in the plane x + y = 0; otherwise on a circle, or
+    /// on a curve around an axis.
     Points crowd(bool flat) {
         Points points;
         const int n = (D == 2 ? 5000 : 900) / scale;
@@ -45,7 +45,7 @@ protected:
         }
         return points;
     }
-    /// Each is a neighbour of many of the crowd.
+    /// Each is a neighbour of many points of the crowd.
     Points hubs(int n) {
         Points points;
         for (int i = 0; i < n; ++i) {
@@ -60,7 +60,7 @@ protected:
         model.insert(points);
         ASSERT_EQ(mesh.insert(points), ABACUS_OK) << mesh.error.detail;
     }
-    /// Takes them away, which triangulates the rest.
+    /// Removes them, which triangulates the rest.
     void remove(MeshOf<D> &mesh, PointModel<D> &model, const Points &points,
                 std::size_t memory = 16 << 20) {
         const std::uint64_t vertices = mesh.header.facts.census.vertices,
@@ -87,14 +87,14 @@ TYPED_TEST(Rest, IsTheMeshOfWhatIsLeft) {
         PointModel<D> model;
         this->insert(mesh, model, this->crowd(false));
         auto hubs = this->hubs(200);
-        // Of some places two points: both leave, or one of them, and the other takes over.
+        // Some places have two points: both leave, or only one, and the other takes over.
         for (int i = 0; i < 40; ++i) this->add(hubs, hubs[i].point);
         this->insert(mesh, model, hubs);
         hubs.resize(220);
-        this->add(hubs, Point<D>{7, 7}); // none
+        this->add(hubs, Point<D>{7, 7}); // not in the mesh
         this->remove(mesh, model, hubs, cache_bytes);
         if (this->HasFatalFailure()) return;
-        // And it goes on as before.
+        // Afterwards it continues as before.
         this->insert(mesh, model, this->hubs(20));
         model.expect(mesh);
     }
@@ -177,7 +177,7 @@ TYPED_TEST(Rest, IsLeftAloneWhereRemovalsCostLess) {
 }
 
 TEST(Outlay, IsTooMuchOnlyIfAllCostsMoreThanTheRest) {
-    // Of 1,000 vertices with 2,000 triangles 500 leave, at the same cost each.
+    // 500 of 1,000 vertices with 2,000 triangles leave, at the same cost each.
     const auto given_up = [](std::uint64_t cost) {
         Outlay<2> outlay(500, 1000, 2000);
         for (int i = 1; i <= 500; ++i)

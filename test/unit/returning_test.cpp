@@ -1,4 +1,4 @@
-// Changes tell which simplices they have created and removed, all in all.
+// Changes report all simplices that they have created and removed.
 #include "support/returned.hpp"
 
 #include <gtest/gtest.h>
@@ -26,7 +26,7 @@ protected:
         }
         return points;
     }
-    /// Of a few places: most equal others, and many are cospherical.
+    /// Points at a few places: most equal others, and many are cospherical.
     Points grid(std::size_t n) {
         Points points = uniform(n, 0, D == 2 ? 12 : 5);
         for (InputOf<D> &p : points)
@@ -52,7 +52,7 @@ TYPED_TEST(Returning, IsTheDifferenceOfBeforeAndAfter) {
         const auto points = this->uniform(2000);
         returned.insert(points);
         EXPECT_EQ(returned.rows.size(),
-                  mesh.header.facts.census.simplices); // nothing of what went again
+                  mesh.header.facts.census.simplices); // without those that were removed again
         returned.insert(this->uniform(1));
         EXPECT_LT(returned.rows.size(), 400u);
         EXPECT_GT(returned.rows.size(), 2u);
@@ -66,7 +66,7 @@ TYPED_TEST(Returning, IsTheDifferenceOfBeforeAndAfter) {
 }
 
 TYPED_TEST(Returning, WithinLittleMemory) {
-    // More than the log and the sort hold: into spools.
+    // More than the log and the sort can hold, so with spools.
     constexpr int D = TypeParam::value;
     MeshOf<D> mesh(1);
     Returned<D> returned(mesh, 1);
@@ -83,7 +83,7 @@ TYPED_TEST(Returning, OfEqualPointsAnotherVertexMakesAnotherSimplex) {
     Returned<D> returned(mesh);
     const auto points = this->grid(600);
     returned.insert(points);
-    auto others = points; // at the same places: all stay beside the vertices
+    auto others = points; // at the same places: they all stay beside the vertices
     for (auto &p : others) p.id = this->next_id++;
     returned.insert(others);
     EXPECT_TRUE(returned.rows.empty());
@@ -106,9 +106,9 @@ TYPED_TEST(Returning, OfPointsThatWaitedOrWillWait) {
     returned.insert(line);
     EXPECT_TRUE(returned.rows.empty());
     const auto points = this->uniform(D - 1, 1, 7);
-    returned.insert(points); // spans simplices with what waited
+    returned.insert(points); // spans simplices with the waiting points
     EXPECT_FALSE(returned.rows.empty());
-    returned.remove(points); // and takes them all away
+    returned.remove(points); // removes them all
     EXPECT_FALSE(returned.rows.empty());
     EXPECT_EQ(mesh.header.facts.census.simplices, 0u);
     EXPECT_TRUE(std::none_of(returned.rows.begin(), returned.rows.end(),
@@ -116,7 +116,7 @@ TYPED_TEST(Returning, OfPointsThatWaitedOrWillWait) {
 }
 
 TYPED_TEST(Returning, WhereTheMeshIsMadeAnew) {
-    // Over another domain; and where deletions cost more than a triangulation of the rest.
+    // With another domain; and with deletions that cost more than triangulating the rest.
     constexpr int D = TypeParam::value;
     for (const std::size_t memory : {std::size_t(1), std::size_t(4) << 20}) {
         MeshOf<D> mesh(1);
@@ -142,7 +142,7 @@ TYPED_TEST(Returning, WhereTheMeshIsMadeAnew) {
             crowd.push_back({this->next_id++, p, {0.5}});
         }
         rest.insert(crowd);
-        auto hubs = this->uniform(200, 1000, 1500); // each is a neighbour of many
+        auto hubs = this->uniform(200, 1000, 1500); // each is a neighbour of many others
         for (std::size_t i = 0; i < hubs.size(); i += 2)
             hubs[i].point[1] = -hubs[i].point[0] - hubs[i].point[1];
         rest.insert(hubs);

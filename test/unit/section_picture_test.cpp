@@ -1,5 +1,4 @@
-// Pictures of plane sections: windows, edges, what is blank; what is refused; memory and
-// failures.
+// Pictures of plane sections: windows, edges, blank parts; refusals; memory and failures.
 #include "support/sections.hpp"
 
 namespace abacus {
@@ -11,7 +10,7 @@ TEST_F(Section, ShowsTheWindow) {
     const Image part = draw(order, boxed(drawing(40), {0.5, 0, 0.25}, {0.75, 1, 0.75}));
     EXPECT_EQ(part.height, 80);
     const auto at = [&](int x, int y) { return 0.5 + (x + y + 1) / 160.0; };
-    // The colours belong to the values in the window, of which some corners lie outside.
+    // The colours belong to the values in the window; some of the corners lie outside.
     EXPECT_LT(sum(part(39, 0)), sum(part(0, 79)));
     EXPECT_LT(at(0, 0), at(39, 79));
     // A window larger than the mesh has a border of ground.
@@ -26,8 +25,8 @@ TEST_F(Section, ShowsTheWindow) {
     EXPECT_EQ(slanted.height, 141); // 1 by half the root of 2
 }
 
-// The pages of a small window are found on another way than those of a large one; what is drawn of
-// them is the same, inside of the mesh, across its hull and beside it.
+// The pages of a small window are found in another way than those of a large one. The picture is
+// the same: inside the mesh, across its hull and beside it.
 TEST_F(Section, HasInAWindowWhatIsThereInALargerOne) {
     build(full_cube(4000), [](const Point<3> &p) { return p[0] + 2 * p[1] + 3 * p[2]; });
     ASSERT_GT(host.pages.size(), 30u);
@@ -66,13 +65,13 @@ TEST_F(Section, IsBlankWhereThePlaneMisses) {
         EXPECT_TRUE(is_blank);
     }
     EXPECT_EQ(draw(Order({-1, 0, 0}, {1, 0, 0}), drawing(3))(1, 1), ground);
-    // Nor is there more to see where it touches a corner or an edge.
+    // Nothing more is visible where it touches a corner or an edge.
     EXPECT_EQ(draw(Order({0, 0, 0}, {1, 1, 1}), drawing(3))(1, 1), ground);
     EXPECT_EQ(draw(Order({0, 0, 0}, {1, 1, 0}), drawing(3))(1, 1), ground);
 }
 
 TEST_F(Section, DrawsMeshesWithoutTetrahedra) {
-    for (const std::size_t n : {0, 3, 9}) { // 9 points of a layer
+    for (const std::size_t n : {0, 3, 9}) { // 9 points in each layer
         std::vector<Point<3>> points = cube(2);
         points.resize(n);
         build(points);
@@ -198,7 +197,7 @@ TEST_F(Section, RefusesWhatCannotBeDrawn) {
     }));
     EXPECT_FALSE(refused([](O &, D &d) { d = boxed(d, {0, 0, 0}, {1, 1, 0.5}); }));
     EXPECT_TRUE(refused([](O &, D &d) { d = boxed(d, {-infinity, 0, 0}, {1, 1, 1}); }));
-    // Each mesh has its own kind of picture.
+    // Each kind of mesh has its own kind of picture.
     abacus_picture picture{};
     const D flat = drawing(10);
     EXPECT_EQ(abacus_draw(host.table(), &header.facts, &flat, &picture, &error), ABACUS_ERROR);

@@ -1,5 +1,5 @@
-// Plane sections of tetrahedral meshes: that they tile the plane wherever it cuts, and lie
-// and have values as they should.
+// Plane sections of tetrahedral meshes: they tile the plane wherever it cuts, and have the right
+// places and values.
 #include "support/sections.hpp"
 
 namespace abacus {
@@ -49,7 +49,7 @@ TEST_F(Section, FillsLayersOfAGrid) {
                 for (const double sign : {-1.0, 1.0}) {
                     Point<3> normal{0, 0, 0}, through{0, 0, 0};
                     normal[axis] = sign;
-                    // Not always what a grid of 0.1 has: 0.3 is not 3 * 0.1.
+                    // Not always numbers of a grid of 0.1: 0.3 is not 3 * 0.1.
                     through[axis] = step == 1 ? layer * 0.5 : layer / 20.0;
                     for (const double exaggeration : {-1.0, 1.0}) {
                         const Image image = draw(Order(through, normal, exaggeration), drawing(60));
@@ -91,7 +91,7 @@ TEST_F(Section, FillsAnOctree) {
 TEST_F(Section, TilesTheHullOfAnyPoints) {
     std::mt19937_64 random(3);
     std::uniform_int_distribution<int> small(-3, 3);
-    std::vector<Point<3>> blurred = cube(4); // layers that are not quite flat
+    std::vector<Point<3>> blurred = cube(4); // nearly flat layers
     for (Point<3> &p : blurred)
         for (double &x : p) x += 1e-12 * small(random);
     for (const auto &input : {points<3>(Kind::uniform, 400), points<3>(Kind::grid, 400),
@@ -99,7 +99,7 @@ TEST_F(Section, TilesTheHullOfAnyPoints) {
         build(input);
         double total = 0;
         for (int round = 0; round < 100; ++round) {
-            // Through points, in directions that meet others in a grid.
+            // Through points, in directions that meet other points in a grid.
             const Point<3> normal{double(small(random)), double(small(random)),
                                   double(small(random))};
             if (normal == Point<3>{0, 0, 0}) continue;
@@ -120,7 +120,7 @@ TEST_F(Section, HasTheAreaOfTheCut) {
     const auto covered = std::count(image.pixels.begin(), image.pixels.end(), full);
     const auto blank = std::count(image.pixels.begin(), image.pixels.end(), ground);
     const auto border = static_cast<double>(image.pixels.size()) - covered - blank;
-    // Of the rectangle around a regular hexagon, a quarter is blank.
+    // A quarter of the rectangle around a regular hexagon is blank.
     EXPECT_NEAR((covered + border / 2) / image.pixels.size(), 0.75, 0.01);
     EXPECT_LT(border, 3 * 300);
     EXPECT_NEAR(area(Order({4, 4, 4}, {1, 1, 1})), 0.75 * std::sqrt(3) * 64, 1e-9);
@@ -159,7 +159,7 @@ TEST_F(Section, LacksAValueWhereAVertexOfTheEdgeLacksIt) {
     }
 }
 
-// x, y or z: which of them grows along the picture's axes.
+// Which of x, y and z grows along the picture's axes.
 TEST_F(Section, LiesAsAMapOrASectionDoes) {
     struct Case {
         Point<3> normal;

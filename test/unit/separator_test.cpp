@@ -1,5 +1,5 @@
-// The facet that separates a simplex from a point, along walks: against the orientations of all
-// facets of each simplex, wherever the point lies.
+// The facet that separates a simplex from a point, along walks: compared with the orientations of
+// all facets of each simplex, wherever the point lies.
 #include "traverse/separator.hpp"
 
 #include "support/mesh_in_change.hpp"
@@ -8,8 +8,8 @@
 namespace abacus::test {
 namespace {
 
-/// Where walks lead: to vertices, to the middles of pairs of them, which lie on edges now and
-/// then, and anywhere.
+/// The ends of walks: vertices, middles of pairs, which sometimes lie on edges, and arbitrary
+/// places.
 template <int D>
 std::vector<Point<D>> targets(const std::vector<Point<D>> &points, Random &random) {
     const auto any = [&] { return points[random() % points.size()]; };
@@ -34,7 +34,7 @@ std::array<int, D + 1> sides(const Cache<D> &cache, const Simplex<D> &s, const P
     return sides;
 }
 
-/// Walks to p, and checks each answer on the way; what it found at the end.
+/// Walks to p and checks each answer on the way; returns the simplex at the end.
 template <int D>
 int expect_right_facets(Cache<D> &cache, Handle h, const Point<D> &p, Random &random) {
     Separator<D, Cache<D>> separator(cache, p);

@@ -1,4 +1,4 @@
-// Whether a simplex meets a box, against CGAL in exact arithmetic.
+// Whether a simplex meets a box, compared with CGAL in exact arithmetic.
 #include "geometry/simplex_box.hpp"
 
 #include <CGAL/Exact_predicates_exact_constructions_kernel.h>

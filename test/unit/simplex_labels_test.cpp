@@ -1,5 +1,5 @@
-// Labels of simplices: what a mesh is loaded with is there for every reader, and the check tells
-// what is not as it should be.
+// Labels of simplices: every reader finds the labels with which a mesh was loaded, and the check
+// finds wrong ones.
 #include "support/labelled_mesh.hpp"
 
 #include <gtest/gtest.h>
@@ -42,7 +42,7 @@ TYPED_TEST(SimplexLabels, SelectSimplicesByRange) {
     holed.expect_in_ranges();
 }
 
-/// As of one that is not convex.
+/// A mesh that is not convex.
 TYPED_TEST(SimplexLabels, OfAMeshWithAHole) {
     constexpr int D = TestFixture::D;
     LabelledMesh<D> mesh(2);
@@ -54,7 +54,7 @@ TYPED_TEST(SimplexLabels, OfAMeshWithAHole) {
     EXPECT_EQ(mesh.mesh.check(), std::vector<std::string>{});
 }
 
-/// The pages of simplices know nothing of labels.
+/// The pages of simplices do not depend on labels.
 TYPED_TEST(SimplexLabels, LeaveSimplexPagesAsTheyAre) {
     constexpr int D = TestFixture::D;
     const auto t = some_triangulation<D>(1000);
@@ -100,7 +100,7 @@ TYPED_TEST(SimplexLabels, WhoseNobodyHasOrTooFewAreFaults) {
     --mesh.mesh.header.facts.census.labelled;
     EXPECT_FALSE(mesh.mesh.check().empty());
     ++mesh.mesh.header.facts.census.labelled;
-    // Those of another mesh with as many.
+    // The labels of another mesh with the same number of simplices.
     LabelledMesh<D> other(2);
     auto moved = some_triangulation<D>(1500);
     for (auto &v : moved.vertices)
@@ -125,7 +125,7 @@ template <int D> std::vector<InputOf<D>> more_points(int n, double width, std::i
     return points;
 }
 
-/// A simplex that a change leaves keeps them, whoever made the change.
+/// A simplex that a change leaves keeps its labels, whatever the kind of change.
 TYPED_TEST(SimplexLabels, StayAndGoWithTheirSimplices) {
     constexpr int D = TestFixture::D;
     for (const unsigned threads : {1u, 3u})
@@ -147,7 +147,7 @@ TYPED_TEST(SimplexLabels, StayAndGoWithTheirSimplices) {
         }
 }
 
-/// A new one gets those of the one that its centroid lay in, if the mesh wants that.
+/// A new simplex gets the labels of the one in which its centroid lay, if the mesh inherits labels.
 TYPED_TEST(SimplexLabels, AreInherited) {
     constexpr int D = TestFixture::D;
     for (const unsigned threads : {1u, 3u})
@@ -196,7 +196,7 @@ TYPED_TEST(SimplexLabels, FollowToAnotherDomain) {
     EXPECT_GT(mesh.mesh.header.facts.census.labelled, 1000u);
 }
 
-/// Most points leave, and the rest is triangulated anew; then all leave.
+/// Most points leave, and the rest is triangulated again; then all leave.
 TYPED_TEST(SimplexLabels, OfAMeshThatIsTakenAway) {
     constexpr int D = TestFixture::D;
     LabelledMesh<D> mesh(3);
@@ -221,11 +221,11 @@ TYPED_TEST(SimplexLabels, AreGivenLater) {
         mesh.load(t);
         mesh.label({0}, 1);
         mesh.expect_all_in_cells();
-        mesh.label({0}, 2); // others
+        mesh.label({0}, 2); // other labels
         mesh.expect_all_in_cells();
         std::vector<std::uint32_t> many{0};
         for (std::uint32_t i = 1; i < 70; ++i) many.push_back(i);
-        mesh.label(many, 3); // more than a page of labels has
+        mesh.label(many, 3); // more than a page of labels can hold
         mesh.expect_all_in_cells();
         mesh.label({5, 69, 2}, 4);
         mesh.expect_all_in_cells();
@@ -257,7 +257,7 @@ TYPED_TEST(SimplexLabels, ForASimplexThatIsNoneAreRefused) {
     mesh.expect_all_in_cells();
 }
 
-/// Nobody has named labels, or no simplex has one.
+/// The mesh has no labels, or no simplex has one.
 TYPED_TEST(SimplexLabels, OfWhichThereAreNone) {
     constexpr int D = TestFixture::D;
     LabelledMesh<D> mesh(2);

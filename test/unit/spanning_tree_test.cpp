@@ -1,5 +1,5 @@
-// Minimum spanning trees against Kruskal's over all pairs of points, and the order of lengths
-// against rational numbers.
+// Minimum spanning trees, compared with Kruskal's algorithm over all pairs of points, and the order
+// of lengths, compared with rational numbers.
 #include "geometry/distance.hpp"
 #include "query/shapes/length_key.hpp"
 #include "support/oracle.hpp"
@@ -99,7 +99,7 @@ template <int D> void expect_trees() {
         if (mesh.header.facts.census.simplices == 0) continue;
         const auto expected = by_hand<D>(input);
         EXPECT_TRUE(read<D>(mesh, 16 << 20) == expected);
-        for (const std::size_t vertices : {32, 100}) // at once
+        for (const std::size_t vertices : {32, 100}) // in one pass
             EXPECT_TRUE(read<D>(mesh, vertices * 64) == expected) << vertices;
     }
 }
@@ -120,7 +120,7 @@ TEST(LengthKey, HasTheOrderOfLengths) {
         edges.push_back({a, b});
         edges.push_back({b, a});
         edges.push_back({{a[1], a[0], a[2]}, {b[1], b[0], b[2]}});
-        if (b[0] != 0) b[0] = std::nextafter(b[0], 9); // of what is next to 0 the square is lost
+        if (b[0] != 0) b[0] = std::nextafter(b[0], 9); // next to 0, the square is lost
         edges.push_back({a, b});
     }
     std::erase_if(edges, [](const auto &e) { return e.first == e.second; });

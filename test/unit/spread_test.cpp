@@ -1,4 +1,4 @@
-// Where points are, and the box that a domain is chosen by.
+// Where points are, and the box that determines a domain.
 #include "keys/domain_of.hpp"
 #include "points/spread.hpp"
 #include "support/memory_host.hpp"
@@ -59,7 +59,7 @@ TYPED_TEST(WherePointsAre, AreInTheirBoxAsARule) {
         points.erase(std::unique(points.begin(), points.end()), points.end());
         Spread<D> spread = this->spread(points);
         const Box<D> box = spread.choose();
-        // What one scale cannot show may leave some out, never most.
+        // If one scale cannot show them all, some may be left out, but never most.
         EXPECT_GE(2 * this->inside(box, points), points.size()) << set.name;
     }
     for (const std::size_t n : {0, 1, 2, 3, 10, 1000, 50000}) {
@@ -68,7 +68,7 @@ TYPED_TEST(WherePointsAre, AreInTheirBoxAsARule) {
     }
 }
 
-// One point or many, on any side and axis, at one distance or at several.
+// One point or many, on any side and axis, at one or several distances.
 TYPED_TEST(WherePointsAre, OutliersAreLeftOut) {
     constexpr int D = TypeParam::value;
     for (const std::size_t n : {50, 3000, 60000})
@@ -128,7 +128,7 @@ TYPED_TEST(WherePointsAre, OfClustersTooFarApartOneIsServedIfItIsMost) {
     auto points = this->cube(8000, 0, 256);
     for (const Point<D> &p : this->cube(2000, 1e15, 256)) points.push_back(p);
     EXPECT_LE(this->extent(this->choose(points)), 640);
-    // Of many none would gain what the others lose.
+    // With many of them, none would gain what the others lose.
     points.clear();
     for (int cluster = 0; cluster < 5; ++cluster)
         for (const Point<D> &p : this->cube(2000, cluster * 1e15, 256)) points.push_back(p);
@@ -147,7 +147,7 @@ TYPED_TEST(WherePointsAre, OfAnyMagnitude) {
     }
 }
 
-// The domain asked about may have been given, or be that of points which have gone.
+// The domain may have been given, or come from points that have gone.
 TYPED_TEST(WherePointsAre, TellWhetherADomainFits) {
     constexpr int D = TypeParam::value;
     const auto points = this->cube(5000, 0, 1);

@@ -45,8 +45,8 @@ TYPED_TEST(Staging, OrderOfDistinctPointsIsTheSameForEveryInputOrder) {
     }
 }
 
-// Points are distributed as they come, over the domain that the first ones seem to have and
-// the rounds that so many have.
+// Points are distributed as they come, over the domain that the first ones suggest and the rounds
+// for their number.
 TYPED_TEST(Staging, OrderIsTheSameWhereverTheFirstPointsLie) {
     constexpr int D = TypeParam::value;
     std::vector<Point<D>> input = points<D>(Kind::uniform, D == 2 ? 400000 : 100000);
@@ -57,7 +57,7 @@ TYPED_TEST(Staging, OrderIsTheSameWhereverTheFirstPointsLie) {
     };
     const Input<D> order = order_of<D>(with_ids<D>(input));
     EXPECT_TRUE(same(order_of<D>(with_ids<D>(input), tiny), order));
-    // Inside half of the domain, then all over it.
+    // Within half of the domain, then everywhere.
     std::partition(input.begin(), input.end(), [](const Point<D> &p) { return p[0] < 0.5; });
     EXPECT_TRUE(same(order_of<D>(with_ids<D>(input), tiny), order));
     std::sort(input.begin(), input.end());
@@ -142,8 +142,8 @@ TYPED_TEST(Staging, FewPointsAreOneRound) {
 
 TYPED_TEST(Staging, ClustersBelowTheResolutionAreInCurveOrder) {
     constexpr int D = TypeParam::value;
-    // One cluster of spread 1e-12 in a domain of extent 1: all of it has one code. The domain is
-    // that of as many others.
+    // One cluster of spread 1e-12 in a domain of extent 1: the whole cluster has one code. The same
+    // number of other points determine the domain.
     std::vector<Point<D>> cluster = points<D>(Kind::uniform, 5000);
     for (auto &p : cluster)
         for (double &x : p) x = 0.3 + 1e-12 * x;
@@ -197,7 +197,7 @@ TYPED_TEST(Staging, HeaderIsBroughtUpToDate) {
         EXPECT_EQ(header.facts.form.upper[axis], 3);
     }
 
-    // A later call goes on counting and keeps the domain, even for points outside.
+    // A later call continues the count and keeps the domain, even for points outside.
     Point<D> far;
     far.fill(1e9);
     ASSERT_EQ(stage<D>(host, header, with_ids<D>({far, p}), ample, error), ABACUS_OK);

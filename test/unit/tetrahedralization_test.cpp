@@ -1,6 +1,6 @@
-// The same templates in 3D: the mesh equals CGAL's Delaunay tetrahedra, one by one and
-// with their orientation, on general, cospherical, coplanar and clustered input, whatever
-// the order of the points and the size of the cache.
+// The same templates in 3D: the mesh equals CGAL's Delaunay tetrahedra, one by one and with their
+// orientation, on general, cospherical, coplanar and clustered input, whatever the order of the
+// points and the size of the cache.
 #include "delaunay/insertion.hpp"
 #include "support/oracle.hpp"
 #include "support/point_sets.hpp"
@@ -24,7 +24,7 @@ Points make(int n, const std::function<Point<3>(int)> &point) {
     return points;
 }
 
-// Caches of three blocks, of some, and of all.
+// Caches of about three blocks, of some, and of all.
 constexpr std::size_t cache_sizes[] = {60 << 10, 600 << 10, std::size_t(1) << 30};
 
 class Tetrahedralization : public testing::TestWithParam<PointSet<3>> {};

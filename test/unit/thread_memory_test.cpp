@@ -1,4 +1,4 @@
-// Memory that any thread may use: counted, refused beyond what is reserved, and gone at the end.
+// Memory for any thread: counted, refused beyond its limit, and freed at the end.
 #include "host/arena.hpp"
 #include "host/thread_memory.hpp"
 
@@ -36,15 +36,15 @@ TEST(ThreadMemory, RefusesWhatIsNotReserved) {
     void *block = any.resize(nullptr, 4000);
     EXPECT_THROW(any.resize(block, 6000), std::bad_alloc);
     EXPECT_THROW(any.resize(nullptr, SIZE_MAX), std::bad_alloc);
-    memory.reserve(10000); // the session's thread may give more; the block is as it was
+    memory.reserve(10000); // the session's thread may raise the limit; the block is unchanged
     block = any.resize(block, 6000);
     any.release(block);
-    memory.reserve(0); // ... or less than is used, which then only shrinks
+    memory.reserve(0); // ... or lower it below the used memory, which then only shrinks
     EXPECT_THROW(any.resize(nullptr, 1), std::bad_alloc);
 }
 
 TEST(ThreadMemory, FreesWhatThreadsLeft) {
-    ThreadMemory memory; // the sanitizer tells if anything stays
+    ThreadMemory memory; // the sanitizer reports anything left
     memory.reserve(1 << 20);
     for (int i = 0; i < 10; ++i) memory.memory().resize(nullptr, 1000 * (i + 1));
 }

@@ -1,5 +1,5 @@
-// The same meshes, and the same faults, from loading by any number of threads; boundaries that are
-// held in parts.
+// Loading with any number of threads gives the same meshes and the same faults; also with
+// boundaries that are held in parts.
 #include "support/running_threads.hpp"
 #include "support/triangulations.hpp"
 
@@ -14,7 +14,7 @@ template <class Dimension> class ThreadsLoading : public testing::Test {
 protected:
     static constexpr int D = Dimension::value;
 
-    /// Simplices that have nothing in common, each in a cell of its own: all is boundary.
+    /// Simplices that have nothing in common, each in a cell of its own: everything is boundary.
     Triangulation<D> scattered(int cells) {
         std::uniform_real_distribution<double> unit(0, 0.2);
         Triangulation<D> t;
@@ -32,7 +32,7 @@ protected:
         t.shuffle(5);
         return t;
     }
-    /// One simplex more, from the vertices around a place to far away.
+    /// Adds a simplex from the vertices around a place to a distant point.
     void add_long_one(Triangulation<D> &t, double at) {
         Ids<D> simplex;
         for (int v = 0; v <= D; ++v) {
@@ -43,7 +43,7 @@ protected:
         }
         t.simplices.push_back(simplex);
     }
-    /// What is said of a load by so many threads; whatever comes, nothing is left behind.
+    /// The error of a load with this many threads; whatever happens, nothing is left behind.
     std::string said(const Triangulation<D> &t, unsigned threads, std::size_t memory) {
         MeshOf<D> mesh(0);
         mesh.host.set_threads(threads, true);
@@ -87,7 +87,7 @@ TYPED_TEST(ThreadsLoading, FindsTheSameFaults) {
 }
 
 TYPED_TEST(ThreadsLoading, CutsABoundaryAlike) {
-    // At some of these memories the boundary only just fits.
+    // With some of these memory sizes the boundary only just fits.
     constexpr int D = TypeParam::value;
     auto t = this->scattered(D == 2 ? 20 : 6);
     for (int i = 0; i < 4; ++i) this->add_long_one(t, i);
@@ -100,8 +100,8 @@ TYPED_TEST(ThreadsLoading, CutsABoundaryAlike) {
 }
 
 TYPED_TEST(ThreadsLoading, FindsAFaultWhereverItIs) {
-    // A long simplex crosses many others, an ever smaller one at last none: parts miss none of
-    // them.
+    // A long simplex crosses many others, and an ever smaller one finally none: the parts miss none
+    // of them.
     constexpr int D = TypeParam::value;
     const auto sound = this->scattered(D == 2 ? 30 : 8);
     int refused = 0;

@@ -1,5 +1,5 @@
-// Meshes are checked, and many places answered, by several threads as by one; and what they do
-// ends cleanly, whatever fails.
+// Several threads check meshes and answer many places as one thread does; and their work ends
+// cleanly, whatever fails.
 #include "mesh/page_writer.hpp"
 #include "support/checked_by_threads.hpp"
 #include "support/large_mesh.hpp"
@@ -23,7 +23,7 @@ template <class Dimension> class ThreadsReading : public testing::Test {};
 using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
 TYPED_TEST_SUITE(ThreadsReading, Dimensions);
 
-/// Everything that is told, as words.
+/// All reported answers, as words.
 struct Told {
     std::vector<std::uint64_t> words;
 
@@ -127,7 +127,7 @@ template <int D> std::vector<InputOf<D>> places_in(Large<D> &mesh, int n) {
     return places;
 }
 
-/// So many threads, beside the first, were seen at work, and were reported.
+/// How many threads besides the first were seen at work, and reported.
 template <int D> struct Watched {
     explicit Watched(MeshOf<D> &mesh) : mesh_(mesh) {
         mesh.host.on_progress = [this](const abacus_progress &progress) {
@@ -186,7 +186,7 @@ TYPED_TEST(ThreadsReading, ShareManyPlaces) {
         EXPECT_EQ(mesh.host.last_progress.done, places.size());
         EXPECT_EQ(mesh.host.last_progress.total, places.size());
     }
-    // Few, or with long answers, are for one.
+    // Few places, or long answers, are left to one thread.
     const Watched<D> watched(mesh);
     Told few;
     ASSERT_EQ(ask<D>(mesh, Asked::simplex, places_in(mesh, 3000), few), ABACUS_OK);
@@ -195,7 +195,7 @@ TYPED_TEST(ThreadsReading, ShareManyPlaces) {
     EXPECT_EQ(watched.seen, 0);
 }
 
-/// A hub among many vertices on a circle: a place near it has them all as natural neighbours.
+/// A hub among many vertices on a circle: a place near it has all of them as natural neighbours.
 TEST(ThreadsReading, TellAnswersThatAreLongerThanExpected) {
     std::vector<Input> input{{-1, {0, 0}, {0}}};
     for (int i = 0; i < 600; ++i)
@@ -239,7 +239,7 @@ TYPED_TEST(ThreadsReading, ReadMeshesThatAreNotDelaunay) {
     EXPECT_EQ(mesh.error.kind, ABACUS_ERROR_STATE);
     EXPECT_TRUE(natural.words.empty());
 
-    // A vertex with two ids in pages that have no facet in common, maybe.
+    // A vertex with two ids, in pages that perhaps share no facet.
     auto *page =
         &std::next(mesh.host.pages.begin(), static_cast<std::ptrdiff_t>(mesh.host.pages.size() / 2))
              ->second;
@@ -258,7 +258,7 @@ TYPED_TEST(ThreadsReading, CheckLargeMeshes) {
         EXPECT_EQ(watched.seen, 3);
         EXPECT_EQ(watched.told, 3);
     }
-    mesh.header.facts.census.vertices += 1; // found by what all threads have seen together
+    mesh.header.facts.census.vertices += 1; // found from the sum over all threads
     const auto together = faults_of(mesh);
     EXPECT_FALSE(together.empty());
     mesh.host.set_threads(1, false);
@@ -286,7 +286,7 @@ TYPED_TEST(ThreadsReading, FindTheSameFaultsInDamagedMeshes) {
             case 1:
                 ++mesh.header.facts.census.simplices;
                 break;
-            default: // a bit, with a checksum that is right unless it is the last kind
+            default: // a bit; the checksum is right except in the last kind
                 page->second.bytes()[mesh.random() % page->second.size] ^= 1 << mesh.random() % 8;
                 if (trial % 5 != 4) seal_page(page->second.bytes(), page->second.size);
             }
@@ -298,7 +298,7 @@ TYPED_TEST(ThreadsReading, FindTheSameFaultsInDamagedMeshes) {
 
 // ---- A clean end -------------------------------------------------------------------------
 
-/// Calls end(n) for greater and greater n, until work() is done.
+/// Calls end(n) for increasing n, until work() is done.
 template <class End, class Work> int until_done(int first, int grows_by, End end, Work work) {
     int failures = 0;
     for (int n = first;; n += 1 + n / grows_by, ++failures) {
@@ -344,7 +344,7 @@ TYPED_TEST(ThreadsReading, EndCleanlyWhereverTheHostFails) {
     EXPECT_EQ(mesh.host.violations, std::vector<std::string>{});
 }
 
-/// Of threads, and of the session.
+/// Memory of threads, and of the session.
 TYPED_TEST(ThreadsReading, EndCleanlyWhenMemoryRunsOut) {
     constexpr int D = TypeParam::value;
     Large<D> mesh(D == 2 ? 1500 : 400, 1);
@@ -437,7 +437,7 @@ TYPED_TEST(ThreadsReading, RaiseTheFirstErrorAlongTheCurve) {
     }
 }
 
-/// A sanitizer would see what they leave.
+/// A sanitizer would see leaks.
 TEST(ThreadsReading, ManyAbortedBuildsLeaveNothing) {
     constexpr int builds = 300;
     Random random(5);

@@ -1,4 +1,4 @@
-// Points leave by any number of threads: the same mesh, and a clean end whatever fails.
+// Any number of threads remove points: the same mesh, and a clean end whatever fails.
 #include "support/point_model.hpp"
 #include "support/point_sets.hpp"
 #include "support/sanitized.hpp"
@@ -36,7 +36,7 @@ protected:
         ASSERT_TRUE(all_threads_ended());
         model.expect(mesh);
     }
-    /// These come, half of them leave, come again, and all leave: with so many threads.
+    /// All points come, half of them leave, come again, and all leave: with this many threads.
     void come_and_go(const std::vector<Point<D>> &points, std::size_t cache_bytes,
                      const std::vector<unsigned> &numbers_of_threads = {2, 3, 4, 7}) {
         const Inputs all = this->with_ids(points);
@@ -79,7 +79,7 @@ TYPED_TEST(ThreadsRemoval, TakesHardInput) {
 }
 
 TYPED_TEST(ThreadsRemoval, TakesTheRightOnesOfEqualPoints) {
-    // Wanted by their ids, by others, more often than there are, and where there are none.
+    // By their ids, by other ids, more often than they exist, and where there are none.
     constexpr int D = TypeParam::value;
     std::vector<Point<D>> points(1000);
     for (auto &p : points)
@@ -133,7 +133,7 @@ TYPED_TEST(ThreadsRemoval, TakesOnlyWhatAgreesExactly) {
 }
 
 TYPED_TEST(ThreadsRemoval, TakesHubsAcrossBorders) {
-    // The centre of a circle or sphere is a neighbour of all that is on it.
+    // The centre of a circle or sphere is a neighbour of all points on it.
     constexpr int D = TypeParam::value;
     std::vector<Point<D>> points;
     for (int i = 0; i < (sanitized ? 150 : 500); ++i) {
@@ -165,8 +165,8 @@ TYPED_TEST(ThreadsRemoval, TakesHubsAcrossBorders) {
 }
 
 TYPED_TEST(ThreadsRemoval, TriangulatesTheRestWhereThatCostsLess) {
-    // Inside a ring, so that all of it are neighbours of some of those that leave, and then of
-    // others. It lies in the interval of one thread, which finds that out.
+    // Inside a ring, so that the whole ring are neighbours of some of the leaving points, and then
+    // of others. It lies in the interval of one thread, which finds that out.
     constexpr int D = TypeParam::value;
     Point<D> centre;
     centre.fill(0.2);
@@ -202,7 +202,7 @@ TYPED_TEST(ThreadsRemoval, TriangulatesTheRestWhereThatCostsLess) {
 }
 
 TYPED_TEST(ThreadsRemoval, LeavesPointsThatWait) {
-    // On a line or in a plane, but for one, without which they span no simplex.
+    // On a line or in a plane, except for one point, without which they span no simplex.
     constexpr int D = TypeParam::value;
     std::vector<Point<D>> flat;
     for (int i = 0; i < 900; ++i) {
@@ -231,7 +231,8 @@ TYPED_TEST(ThreadsRemoval, LeavesPointsThatWait) {
 }
 
 TYPED_TEST(ThreadsRemoval, SharesMuchWorkEvenly) {
-    // Without the switch for tests: large intervals, then the rest; all at once, or in batches.
+    // Without the switch for tests: large intervals, then the rest; all points at once, or in
+    // batches.
     constexpr int D = TypeParam::value;
     auto points = this->uniform(D == 2 ? 200000 : 80000);
     for (std::size_t i = 0; i < 3000; ++i) points.push_back(points[i * 7]);

@@ -1,4 +1,4 @@
-// What changes tell is the same with any number of threads.
+// Changes report the same with any number of threads.
 #include "support/returned.hpp"
 #include "support/threads.hpp"
 
@@ -30,7 +30,7 @@ TYPED_TEST(ThreadsReturning, IsTheDifferenceOfBeforeAndAfter) {
 }
 
 TYPED_TEST(ThreadsReturning, OfMuchWorkSharedEvenly) {
-    // Logs of their size, in which most of what comes and goes cancels out.
+    // Logs of normal size, in which most changes cancel out.
     constexpr int D = TypeParam::value;
     const auto points = this->with_ids(this->uniform(D == 2 ? 150000 : 60000));
     MeshOf<D> mesh(1);

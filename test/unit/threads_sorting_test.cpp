@@ -1,4 +1,5 @@
-// Records and points in the same order from any number of threads, and a clean end whatever fails.
+// Any number of threads sort records and points into the same order, and end cleanly whatever
+// fails.
 #include "sort/record_sort.hpp"
 #include "support/running_threads.hpp"
 #include "support/staged_points.hpp"
@@ -12,7 +13,7 @@ namespace {
 using Words = std::vector<std::uint64_t>;
 constexpr std::size_t stride = 4, key = 3; // words of a record
 
-/// Sorts records by a host; checks that it has nothing left.
+/// Sorts records with a host; checks that nothing is left in it.
 Words sorted_by(MemoryHost &store, const Words &records, std::size_t memory) {
     Words result;
     {
@@ -32,7 +33,7 @@ Words sorted_by(MemoryHost &store, const Words &records, std::size_t memory) {
     return result;
 }
 
-/// Records whose keys are what `word(i, k)` gives; their last words number them.
+/// Records with the keys word(i, k); their last words number them.
 template <class WordOf> Words make(std::size_t n, WordOf word) {
     Words records;
     for (std::size_t i = 0; i < n; ++i) {
@@ -42,7 +43,7 @@ template <class WordOf> Words make(std::size_t n, WordOf word) {
     return records;
 }
 
-/// By their keys, and equal ones in the order in which they came.
+/// By their keys; equal ones in their original order.
 Words in_order(const Words &records) {
     std::vector<std::size_t> order(records.size() / stride);
     std::iota(order.begin(), order.end(), 0);
@@ -64,9 +65,9 @@ std::vector<Words> inputs(std::size_t n) {
     return {
         make(n, any),
         make(n, [](std::size_t, std::size_t) { return 7; }),
-        // Few different words: the later ones decide.
+        // Few different words, so that the later ones decide.
         make(n, [&](std::size_t, std::size_t) { return random() % 3; }),
-        // The first differ in their last bits, but for one.
+        // All but one of the first words differ in their last bits.
         make(n, [&](std::size_t i,
                     std::size_t k) { return k == 0 && i == 9 ? ~0ull : random() % 1000; }),
         make(n, [&](std::size_t i, std::size_t k) { return k < 2 ? 5 : i; }),
@@ -86,7 +87,7 @@ TEST(ThreadsSorting, BringsRecordsIntoTheSameOrder) {
         }
 }
 
-// What does not fit is merged from runs; of records with equal keys any may come first then.
+// Records that do not fit are merged from runs; among equal keys any may then come first.
 TEST(ThreadsSorting, BringsManyRecordsIntoTheSameOrder) {
     for (const Words &records : inputs(200000))
         for (const std::size_t memory : {64 << 20, 8 << 20}) {

@@ -1,4 +1,4 @@
-// The same mesh from any number of threads, and a clean end whatever fails in any of them.
+// Any number of threads make the same mesh, and end cleanly whatever fails in any of them.
 #include "support/threads.hpp"
 
 #include <algorithm>
@@ -12,7 +12,7 @@ template <class Dimension> class Threads : public ThreadsTest<Dimension> {
 protected:
     using ThreadsTest<Dimension>::D, ThreadsTest<Dimension>::ids;
 
-    /// What inserting these with one thread gives, in a few steps.
+    /// The result of inserting these with one thread, in a few steps.
     void expect_same(const std::vector<std::vector<InputOf<D>>> &steps, std::size_t cache_bytes,
                      abacus_on_duplicate on_duplicate = ABACUS_KEEP) {
         MeshOf<D> alone(1, cache_bytes);
@@ -57,7 +57,8 @@ TYPED_TEST(Threads, GiveTheMeshOfCgal) {
 }
 
 TYPED_TEST(Threads, ShareMuchWorkEvenly) {
-    // Without the switch for tests: large intervals, then the rest; all at once, or in batches.
+    // Without the switch for tests: large intervals, then the rest; all points at once, or in
+    // batches.
     constexpr int D = TypeParam::value;
     auto points = this->uniform(D == 2 ? 150000 : 60000);
     for (std::size_t i = 0; i < 5000; ++i) points.push_back(points[i * 7]);
@@ -82,7 +83,7 @@ TYPED_TEST(Threads, ShareMuchWorkEvenly) {
 }
 
 TYPED_TEST(Threads, GatherNoMoreThanTheirShareOfTheMemory) {
-    // Points that take twice the memory of the build; little else does.
+    // Points that take twice the memory of the build; almost nothing else does.
     constexpr int D = TypeParam::value;
     constexpr std::size_t cache = 8 << 20, sort = 1 << 20;
     auto input = this->with_ids(this->uniform(20000));

@@ -1,5 +1,5 @@
-// Tiles: where they are, what is in them against all triangles one by one, and that tiles side by
-// side fit. Vector tiles are read by protozero's reader, field by field.
+// Tiles: where they are; their contents, compared with all triangles one by one; and adjacent tiles
+// fit together. Vector tiles are read with protozero's reader, field by field.
 #include "query/locate/reader.hpp"
 #include "query/scan/cell_scan.hpp"
 #include "query/values/barycentric.hpp"
@@ -24,7 +24,7 @@ constexpr abacus_tile_memory plenty{8 << 20, 8 << 20};
 
 double height_at(const Point<2> &p) { return 800 + 700 * std::sin(3 * p[0]) * std::cos(4 * p[1]); }
 
-/// Points of a part of the globe of `width` degrees, with heights.
+/// Points in a part of the globe of `width` degrees, with heights.
 std::unique_ptr<MeshOf<2>> mesh_of(int points, double width) {
     Random random(points);
     auto mesh = std::make_unique<MeshOf<2>>(1);
@@ -49,7 +49,7 @@ abacus_tile tile_at(int zoom, double lon, double lat) {
             0};
 }
 /// A place in a tile, as shares of its width and height from the upper left; by another formula
-/// than the one that is tested.
+/// than the tested one.
 Point<2> place_in(const abacus_tile &tile, double x, double y) {
     const double n = std::ldexp(1, tile.zoom);
     const double t = std::numbers::pi * (1 - 2 * (tile.y + y) / n);
@@ -165,7 +165,7 @@ ReadTile read_vector(MeshOf<2> &mesh, const abacus_tile &tile, const abacus_tile
     return result;
 }
 
-/// Twice its area; positive if it turns clockwise where y points down, as outer rings do.
+/// Twice the area; positive if the ring turns clockwise with y pointing down, as outer rings do.
 std::int64_t area_of(const std::vector<TilePoint> &ring) {
     std::int64_t area = 0;
     for (std::size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++)
@@ -187,7 +187,7 @@ TEST(VectorTile, HasTheTrianglesAndVerticesOfItsWindow) {
         std::sort(ids.begin(), ids.end());
         EXPECT_TRUE(found.emplace(ids, f.tags.at("value")).second);
     }
-    // All triangles with a corner well within are there, and none that is far outside.
+    // All triangles with a corner well inside are there, and none that is far outside.
     const Host host = mesh->host.host();
     CellScan<2> cells(host, mesh->header, abacus_window{}, 0);
     const std::uint32_t attribute = 0;
@@ -227,7 +227,7 @@ TEST(VectorTile, HasTheTrianglesAndVerticesOfItsWindow) {
     for (const ReadFeature &f : read.at("vertices")) {
         EXPECT_EQ(f.type, 1u);
         const auto vertex = vertices.find(f.tags.at("id"));
-        if (vertex == vertices.end()) continue; // at the very border
+        if (vertex == vertices.end()) continue; // exactly at the border
         ++seen;
         EXPECT_NEAR(f.parts[0][0].x, vertex->second[0], 0.51);
         EXPECT_NEAR(f.parts[0][0].y, vertex->second[1], 0.51);
@@ -246,7 +246,7 @@ TEST(VectorTile, TrianglesFillTheWindow) {
     EXPECT_EQ(read.count("hull"), 0u);
 }
 
-/// Values whose differences and sums are no doubles.
+/// Values whose differences and sums are not doubles.
 TEST(VectorTile, ContoursOfTheGreatestValues) {
     MeshOf<2> mesh(1);
     std::vector<InputOf<2>> input;
@@ -269,8 +269,8 @@ TEST(VectorTile, ContoursOfTheGreatestValues) {
 }
 
 TEST(VectorTile, RingsHaveNoCornerTwiceInSuccession) {
-    // Beside a side of the tile corners of small triangles and those that the cut makes are
-    // rounded to one place.
+    // Beside a side of the tile, the corners of small triangles and the corners from cutting are
+    // rounded to the same place.
     const auto mesh = mesh_of(1900, 0.1);
     std::size_t cut = 0;
     for (int zoom = 7; zoom <= 10; ++zoom) {
@@ -285,7 +285,7 @@ TEST(VectorTile, RingsHaveNoCornerTwiceInSuccession) {
     EXPECT_GT(cut, 50u);
 }
 
-/// Where lines cross the seam between a tile and the one to its right.
+/// Where lines cross the seam between a tile and its right neighbour.
 std::map<double, std::vector<int>> crossings(const ReadTile &tile, int seam) {
     std::map<double, std::vector<int>> result;
     for (const ReadFeature &f : tile.at("contours"))
@@ -366,7 +366,7 @@ TEST(TileLines, AreJoinedAndCut) {
     lines.add(1, {10, 10}, {20, 10});
     lines.add(1, {0, 0}, {10, 10});
     lines.add(1, {20, 10}, {9000, 10}); // leaves the tile
-    lines.add(2, {0, 0}, {0.2, 0.3});   // nothing, once rounded
+    lines.add(2, {0, 0}, {0.2, 0.3});   // nothing after rounding
     lines.add(3, {-500, 0}, {0, -500}); // outside
     VectorLayer layer(host, "lines", {"value"});
     lines.put_into(layer, 0);
@@ -454,7 +454,7 @@ TEST(PictureTile, SamplesShowWhatIsAtTheCentre) {
     EXPECT_GT(inside, 50);
 }
 
-/// The picture of a tile is that of its four children, but for what is finer than a pixel.
+/// The picture of a tile is that of its four children, except for details finer than a pixel.
 TEST(PictureTile, ChildrenFillTheirParent) {
     const auto mesh = mesh_of(2000, 1);
     const Host host = mesh->host.host();
@@ -488,7 +488,7 @@ TEST(PictureTile, WithoutAttributeHasOneBrightness) {
         for (int x = 0; x < 64; ++x) EXPECT_LE(difference(quarter(x, y), whole(x, y)), 1);
 }
 
-/// What is as fine as the mesh as a mean has the middle of the colours, drawn or sampled.
+/// Where the mesh has its mean density, the picture has the middle colour, drawn or sampled.
 TEST(PictureTile, WithoutAttributeHasAMiddle) {
     const auto mesh = mesh_of(30000, 1);
     const Host host = mesh->host.host();

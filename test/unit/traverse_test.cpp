@@ -1,4 +1,4 @@
-// Walks, floods and stars over a triangulation of CGAL's: what they do does not depend on the
+// Walks, floods and stars over one of CGAL's triangulations: their results do not depend on the
 // cache.
 #include "traverse/flood.hpp"
 #include "traverse/walk.hpp"
@@ -23,7 +23,7 @@ namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
-/// CGAL's names for the same in both dimensions.
+/// The same names in both dimensions for CGAL's types.
 template <int D> struct Cgal;
 template <> struct Cgal<2> {
     using Triangulation = CGAL::Delaunay_triangulation_2<Kernel>;
@@ -87,7 +87,7 @@ public:
     std::size_t vertices() const { return points_.size(); }
 
 private:
-    /// The corners in an even order in which the point at infinity is the last.
+    /// The corners in an even order with the point at infinity last.
     template <class Mesh, class Cell>
     static std::array<int, D + 1> order(const Mesh &mesh, Cell cell) {
         std::array<int, D + 1> places;
@@ -125,7 +125,7 @@ template <int D> void check_stars() {
         EXPECT_EQ(met, stars[n]);
         EXPECT_EQ(flood.met().size(), met.size());
     }
-    // A visitor that has enough ends it, and leaves no mark behind.
+    // A visitor that has seen enough ends it, and leaves no mark behind.
     int visits = 0;
     EXPECT_FALSE(flood.around(mesh, *stars[1].begin(), VertexIndex{1},
                               [&](Handle) { return ++visits < 2; }));
@@ -144,7 +144,7 @@ template <int D> void check_walks() {
         const Handle end = walk.within(p, mesh.handles()[random() % mesh.size()], mesh.size());
         ASSERT_NE(end, no_handle);
         const Simplex<D> &s = mesh.simplex(end);
-        if (s.is_ghost()) { // then no simplex has it
+        if (s.is_ghost()) { // then it is in no simplex
             for (const Handle h : mesh.handles())
                 if (!mesh.simplex(h).is_ghost()) {
                     EXPECT_LT(in_simplex<D>(corners_of(mesh, mesh.simplex(h)), p), 1);

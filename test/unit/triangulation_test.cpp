@@ -21,7 +21,7 @@ Points make(int n, const std::function<Point<2>(int)> &point) {
     return points;
 }
 
-// Caches of three blocks, of some, and of all.
+// Caches of about three blocks, of some, and of all.
 constexpr std::size_t cache_sizes[] = {60 << 10, 600 << 10, std::size_t(1) << 30};
 
 class Triangulation : public testing::TestWithParam<PointSet<2>> {};

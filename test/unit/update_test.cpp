@@ -1,4 +1,4 @@
-// Attributes of points change, and nothing else does.
+// Changes of points' attributes change nothing else.
 #include "points/record.hpp"
 #include "support/point_model.hpp"
 #include "support/sanitized.hpp"
@@ -48,7 +48,7 @@ public:
         which.resize(1 + random() % 5);
         return which;
     }
-    /// Other values for some of the points there are, a few of them under another id or twice.
+    /// Other values for some of the present points, a few of them under another id or twice.
     std::vector<InputOf<D>> changes(std::size_t n, std::size_t width) {
         std::vector<InputOf<D>> all = model.points();
         std::shuffle(all.begin(), all.end(), random);
@@ -68,7 +68,7 @@ public:
                          const std::vector<std::uint32_t> &which, std::size_t memory = 16 << 20) {
         return update(points, which, false, memory);
     }
-    /// The points have values of all attributes, and behind them those that they had.
+    /// The points have values of all attributes, followed by their old values.
     abacus_status update_exactly(const std::vector<InputOf<D>> &points) {
         std::vector<std::uint32_t> all(count_);
         std::iota(all.begin(), all.end(), 0);
@@ -110,7 +110,7 @@ private:
     std::int64_t next_id_ = 0;
 };
 
-/// How many pages are what they were.
+/// Counts the pages that have not changed.
 std::size_t same_pages(const MemoryHost::Pages &before, const MemoryHost::Pages &now) {
     std::size_t same = 0;
     for (const auto &[key, page] : before) {
@@ -125,7 +125,8 @@ using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_
 TYPED_TEST_SUITE(Update, Dimensions);
 
 TYPED_TEST(Update, ChangesTheAttributesThatAreNamed) {
-    // Of vertices, of points equal to one, and of those that wait since they span no simplex.
+    // Attributes of vertices, of points equal to one, and of points that wait since they span no
+    // simplex.
     constexpr int D = TypeParam::value;
     const std::size_t sizes[] = {1, 2, 10, 100, 400};
     for (const bool apart : {false, true})
@@ -182,7 +183,7 @@ TYPED_TEST(Update, WritesOnlyPagesOfTheAttributesThatAreNamed) {
 }
 
 TYPED_TEST(Update, LooksForNoLabels) {
-    // The simplices stay as they are, also where attributes are in their pages.
+    // The simplices do not change, even if attributes are in their pages.
     constexpr int D = TypeParam::value;
     std::size_t found[2];
     for (const bool labelled : {false, true}) {
@@ -214,13 +215,13 @@ TYPED_TEST(Update, ReadsEqualPointsOnce) {
     const auto before = world.mesh.host.calls;
     ASSERT_EQ(world.update(equal, {0}), ABACUS_OK);
     EXPECT_EQ(world.updated, equal.size());
-    EXPECT_LT(world.mesh.host.calls.find - before.find, 300u); // some fifty pages
+    EXPECT_LT(world.mesh.host.calls.find - before.find, 300u); // about fifty pages
     EXPECT_LT(world.mesh.host.calls.put - before.put, 100u);
     world.model.update(equal, {0});
     world.model.expect(world.mesh);
 }
 
-/// Points of the model with other values, and those that they have behind them.
+/// Points of the model with new values, followed by their old ones.
 template <int D> std::vector<InputOf<D>> exact_changes(Updated<D> &world, std::size_t n) {
     std::vector<InputOf<D>> all = world.model.points();
     std::shuffle(all.begin(), all.end(), world.random);
@@ -252,7 +253,7 @@ TYPED_TEST(Update, ExactlyChangesPointsThatAreAsTheyWere) {
                 world.model.expect(world.mesh);
                 if (this->HasFatalFailure()) return;
             }
-            // one with an attribute that it has not, and one of another place
+            // one with a wrong attribute, and one at another place
             auto points = exact_changes(world, 5);
             points[2].attributes.back() += 1;
             ASSERT_EQ(world.update_exactly(points), ABACUS_OK);
@@ -265,7 +266,7 @@ TYPED_TEST(Update, ExactlyChangesPointsThatAreAsTheyWere) {
         }
 }
 
-/// The first attribute of all points at the place of this one, in order.
+/// The first attribute of all points at this point's place, in order.
 template <int D> std::vector<double> values_at(MeshOf<D> &mesh, const InputOf<D> &like) {
     std::vector<double> values;
     abacus_vertex_scan *scan = nullptr;
@@ -282,7 +283,7 @@ template <int D> std::vector<double> values_at(MeshOf<D> &mesh, const InputOf<D>
 }
 
 TYPED_TEST(Update, ExactlyTakesEachOfEqualPointsOnce) {
-    // Rows that agree in all but attributes, or in these, too; one of them is the vertex.
+    // Rows that agree in everything except attributes, or even in these; one of them is the vertex.
     constexpr int D = TypeParam::value;
     for (const bool apart : {false, true}) {
         Updated<D> world(apart, 1 << 20, 1);
@@ -305,10 +306,10 @@ TYPED_TEST(Update, ExactlyTakesEachOfEqualPointsOnce) {
         change({{2, 3}, {3, 2}, {1, 2}, {2, 2.5}, {first, -1}});
         EXPECT_EQ(world.updated, 5u);
         EXPECT_EQ(values_at<D>(world.mesh, point), (std::vector<double>{-1, 2, 2, 2.5, 3}));
-        change({{2, 7}, {2, 7}, {2, 7}}); // there are two
+        change({{2, 7}, {2, 7}, {2, 7}}); // there are only two
         EXPECT_EQ(world.updated, 2u);
         EXPECT_EQ(world.missing.id, point.id);
-        point.id = -5; // nobody's
+        point.id = -5; // not in the mesh
         change({{3, 4}});
         EXPECT_EQ(world.updated, 0u);
         EXPECT_EQ(world.mesh.check(), std::vector<std::string>{});
@@ -339,7 +340,7 @@ TYPED_TEST(Update, SaysWhichPointIsMissing) {
 }
 
 TYPED_TEST(Update, LosesNothingWhenAnythingFails) {
-    // A call of the host that fails comes out as an error, and no memory is lost.
+    // A failing call of the host becomes an error, and no memory is lost.
     constexpr int D = TypeParam::value;
     for (const bool apart : {false, true}) {
         Updated<D> world(apart, 64 << 10, 3);

@@ -1,5 +1,5 @@
-// Rasters: every value is that of Interpolation at the pixel's centre, to the last bit; but by
-// natural neighbours, which are summed in no defined order.
+// Rasters: every value is that of Interpolation at the pixel's centre, to the last bit; except with
+// natural neighbours, whose sums have no defined order.
 #include "query/places/value_raster.hpp"
 #include "support/point_sets.hpp"
 #include "support/triangulations.hpp"
@@ -46,7 +46,7 @@ void expect_raster(MeshOf<D> &mesh, const abacus_raster &raster, const abacus_in
             double expected = 0;
             if (!interpolation.values(reader, how, p, &expected))
                 ASSERT_TRUE(std::isnan(row[i])) << i << ", " << j;
-            else if (how.method == ABACUS_NATURAL) // sums in whatever order
+            else if (how.method == ABACUS_NATURAL) // sums in any order
                 ASSERT_NEAR(expected, row[i], 1e-12) << i << ", " << j;
             else
                 ASSERT_EQ(std::memcmp(&expected, row + i, sizeof expected), 0)
@@ -68,7 +68,7 @@ template <int D> void expect_rasters(MeshOf<D> &mesh, double extent, bool is_del
             raster.upper[i] = is_lattice ? std::round(extent) + 0.75 : 1.07 * extent;
         }
         raster.lower[2] = raster.upper[2] = is_lattice ? 1 : 0.45 * extent;
-        // On the lattice centres are vertices, and halfway between them.
+        // On the lattice the centres are vertices, and points halfway between them.
         const auto cells = static_cast<std::uint32_t>(2 * (std::round(extent) + 1.5));
         raster.width = is_lattice ? cells : 61;
         raster.height = is_lattice ? cells : 47;
@@ -126,7 +126,7 @@ TEST(ValueRaster, OfMeshesWithHoles) {
     expect_rasters<2>(mesh, 13, false);
 }
 
-/// Slivers, whose borders in a row doubles hardly find.
+/// Slivers, whose borders in a row are hard to find with doubles.
 TEST(ValueRaster, OfSlivers) {
     std::vector<Point<2>> points;
     Random random(6);

@@ -1,5 +1,5 @@
-// Areas and volumes: against rational arithmetic over all triangles and pairs of them; identities;
-// the same to the last bit however the mesh came about.
+// Areas and volumes: compared with rational arithmetic over all triangles and pairs of them;
+// identities; the same to the last bit, however the mesh was made.
 #include "query/volume/volume.hpp"
 #include "support/large_mesh.hpp"
 #include "support/mesh_in_change.hpp"
@@ -69,7 +69,7 @@ struct Expected {
     }
 };
 
-/// The box of a polygon, in doubles: rational arithmetic takes long.
+/// The box of a polygon, in doubles: rational arithmetic is slow.
 Box<2> around(const Polygon &polygon) {
     Box<2> box;
     for (const Corner &c : polygon) box.extend({CGAL::to_double(c.x), CGAL::to_double(c.y)});
@@ -300,13 +300,13 @@ TEST(Volume, OfGridsThatShareEdges) {
     Surface eight, four, beside;
     eight.insert_all(raised(grid(8, 0, 1), hill));
     four.insert_all(raised(grid(4, 0, 1), dune));
-    beside.insert_all(raised(grid(8, 1, 2), dune)); // has one corner in common
+    beside.insert_all(raised(grid(8, 1, 2), dune)); // has one common corner
     for (const abacus_window &w : windows) {
         expect_near(between(eight, four, w), expected_between(eight, four, w));
         EXPECT_EQ(between(eight, beside, w).area, 0);
     }
     EXPECT_EQ(between(eight, four, {}).area, 1);
-    // Triangles of equal size: it does not matter which mesh is the first.
+    // Triangles of equal size: the order of the meshes does not matter.
     Surface moved;
     moved.insert_all(raised(grid(8, 0.03, 1.03), dune));
     const abacus_volume volume = between(eight, moved, {}), turned = between(moved, eight, {});
@@ -315,7 +315,7 @@ TEST(Volume, OfGridsThatShareEdges) {
     EXPECT_EQ(volume.fill, turned.cut);
 }
 
-/// Two meshes that share all points have no volume between them, exactly.
+/// Two meshes with the same points have no volume between them, exactly.
 TEST(Volume, BetweenTheSameIsNothing) {
     for (const double shift : {0.0, 5e6}) {
         Surface mesh;
@@ -345,7 +345,7 @@ TEST(Volume, IsTheSameHoweverTheMeshCameAbout) {
         MeshOf<2> first(1, bytes), second(1, bytes);
         std::shuffle(input.begin(), input.end(), random);
         std::shuffle(other.begin(), other.end(), random);
-        for (std::size_t i = 0; i < input.size(); ++i) // ids tell no order
+        for (std::size_t i = 0; i < input.size(); ++i) // ids give no order
             input[i].id = static_cast<std::int64_t>(i);
         if (bytes == ample) {
             ASSERT_EQ(first.stage(input), ABACUS_OK);
@@ -433,7 +433,8 @@ TEST(Volume, ReadsWhatBothMeshesHaveAlone) {
         const abacus_volume volume =
             is_first ? between(large, small, {}) : between(small, large, {});
         EXPECT_NEAR(volume.area, above<2>(small, {}, 0).area, 1e-16);
-        // Scanned, it is searched by its hull; else it tells that by pages around its own.
+        // If it is scanned, it is searched along its hull; otherwise only by pages around the other
+        // mesh.
         EXPECT_LT(pages_read() - before, large.host.pages.size() / 2) << is_first;
     }
 }

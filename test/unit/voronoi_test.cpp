@@ -1,4 +1,4 @@
-// Voronoi cells against brute force: half-spaces cut one by one from the window.
+// Voronoi cells, compared with brute force: half-spaces cut one by one from the window.
 #include "geometry/distance.hpp"
 #include "support/oracle.hpp"
 #include "support/point_sets.hpp"
@@ -16,7 +16,7 @@ struct Cells {
     std::map<std::int64_t, abacus_voronoi_cell> cell;
     std::map<std::int64_t, std::vector<double>> ring;
     std::map<std::pair<std::int64_t, std::int64_t>, double> facet;
-    std::map<std::int64_t, double> sides; ///< of the window, of each cell together
+    std::map<std::int64_t, double> sides; ///< of the window, over all cells
     double sum = 0;
 };
 
@@ -53,7 +53,7 @@ template <int D> Cells read(MeshOf<D> &mesh, const abacus_window &window, std::s
     return cells;
 }
 
-/// Area of what is left of a window where all that is nearer to another point is cut off.
+/// The area left of a window after cutting off everything that is nearer to another point.
 double area_by_hand(const std::vector<Point<2>> &points, std::size_t n, const abacus_window &w) {
     using Ring = std::vector<std::array<long double, 2>>;
     Ring ring{{w.lower[0], w.lower[1]},
@@ -99,7 +99,7 @@ template <int D> std::vector<Point<D>> points_of(int kind, int n, unsigned seed)
             p[axis] = kind == 1 ? rest % side : unit(random) * 10;
             square += (p[axis] - 5) * (p[axis] - 5);
         }
-        if (kind == 2) // on a sphere, and some within
+        if (kind == 2) // on a sphere, and some inside
             for (double &x : p) x = 5 + (x - 5) * (i % 10 == 0 ? 1 : 4 / std::sqrt(square));
         if (kind == 3) // near a line
             for (int axis = 1; axis < D; ++axis) p[axis] = p[0] / axis + p[axis] * 1e-7;
@@ -140,7 +140,7 @@ template <int D> void expect_cells(int kind) {
                 const double area = found == cells.cell.end() ? 0 : found->second.area;
                 EXPECT_NEAR(area, expected, 1e-9 * content<2>(window)) << n;
             }
-        // On a side of the window that is a bisector, only one of two neighbours has a part.
+        // If a side of the window is a bisector, only one of the two neighbours has a part.
         if (i == 3) continue;
         for (const auto &[ends, size] : cells.facet) {
             const auto back = cells.facet.find({ends.second, ends.first});
@@ -187,7 +187,7 @@ TEST(Voronoi, CornersOfAGridComeOnce) {
     expect_grid<3>();
 }
 
-/// Points on one circle around their centre, turned: its cell is a regular polygon.
+/// Points on one circle around their centre: its cell is a regular polygon.
 TEST(Voronoi, CocircularPointsHaveOneCorner) {
     std::vector<Point<2>> points;
     // Pythagorean: 5² = 3² + 4², 25² = 7² + 24² = 15² + 20², all exactly on the circle.

@@ -1,5 +1,5 @@
-// Points with as many attributes as there can be, also where one of them fills a page: they wait,
-// repeat, spill, go through threads, leave, and get others.
+// Points with as many attributes as possible, even if one of them fills a page: they wait, repeat,
+// spill, go through threads, leave, and get new attributes.
 #include "points/record.hpp"
 #include "support/point_model.hpp"
 #include "support/running_threads.hpp"
@@ -54,7 +54,7 @@ public:
                 std::size_t memory = 16 << 20) {
         auto points = fresh(n, repeat);
         if (on_duplicate == ABACUS_REPLACE) {
-            std::set<Point<D>> places; // each once
+            std::set<Point<D>> places; // each place once
             std::erase_if(points, [&](const auto &p) { return !places.insert(p.point).second; });
             model.replace(points);
         } else {
@@ -89,7 +89,7 @@ public:
         model.change_attributes(source);
         model.expect(mesh);
     }
-    /// Other values of the first, the last and one in the middle.
+    /// Other values of the first attribute, the last and one in the middle.
     void update(std::size_t n) {
         const std::uint32_t count = mesh.header.facts.columns.attributes;
         const std::vector<std::uint32_t> which{count - 1, 0, count / 2};
@@ -132,8 +132,8 @@ template <class Dimension> class WidePoints : public testing::Test {};
 using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
 TYPED_TEST_SUITE(WidePoints, Dimensions);
 
-/// Around the count from which on a waiting or repeated point takes a page of its own, and one
-/// larger than others.
+/// Around the number of attributes from which on a waiting or repeated point takes a page of its
+/// own, and with one page larger than others.
 TYPED_TEST(WidePoints, ComeAndGo) {
     constexpr int D = TypeParam::value;
     for (const int count : {100, 101, 490, 980, 989, 990, int{ABACUS_MAX_ATTRIBUTES}})
@@ -200,7 +200,7 @@ TYPED_TEST(WidePoints, GetOneMoreAndOneLess) {
         }
 }
 
-/// A page that is larger than full ones is only read where one point takes it.
+/// A page larger than full ones can only be read if one point takes it.
 TYPED_TEST(WidePoints, DamagedPagesAreRefused) {
     constexpr int D = TypeParam::value;
     Wide<D> wide(ABACUS_MAX_ATTRIBUTES);

@@ -1,5 +1,5 @@
-// Windows of a mesh: balls against rational arithmetic, and simplices of boxes and balls against
-// brute force over all.
+// Windows of a mesh: balls compared with rational arithmetic, and simplices of boxes and balls
+// compared with brute force over all.
 #include "geometry/ball.hpp"
 #include "query/locate/reader.hpp"
 #include "query/scan/cell_scan.hpp"
@@ -85,7 +85,7 @@ template <int D> void compare_balls(double unit, unsigned seed) {
     }
     EXPECT_GT(met, 300);
     EXPECT_LT(met, 1900);
-    if (std::scalbn(1.0, std::ilogb(unit)) == unit) { // all is an integer in one unit
+    if (std::scalbn(1.0, std::ilogb(unit)) == unit) { // everything is an integer in one unit
         EXPECT_GT(touched, 5);
     }
 }
@@ -180,7 +180,8 @@ TEST(Window, HasTheSimplicesThatMeetIt) {
     expect_windows_of_meshes<3>();
 }
 
-/// Small windows that pass by, among others, the long simplices along a slanted side of the hull.
+/// Small windows that lie beside, among others, the long simplices along a slanted side of the
+/// hull.
 template <int D> void expect_bounds(MeshOf<D> &mesh, int rounds) {
     Random random(6);
     const auto all = mesh.simplices(false);
@@ -211,7 +212,7 @@ template <int D> void expect_bounds(MeshOf<D> &mesh, int rounds) {
 
 template <int D> void expect_bounds_of_meshes() {
     auto points = uniform<D>(D == 2 ? 6000 : 2000, 7);
-    for (Point<D> &p : points) // the half below a slanted plane, and more and more near a corner
+    for (Point<D> &p : points) // the half below a slanted plane, denser and denser near a corner
         if (p[0] < p[1]) std::swap(p[0], p[1]);
     for (std::size_t i = 0; i < points.size(); i += 2)
         for (int k = 1; k < D; ++k) points[i][k] *= points[i][k] * points[i][k];

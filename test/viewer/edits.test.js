@@ -1,5 +1,5 @@
-// Pages that edit: who may, how long what is not saved is kept, and what becomes of it and of all others
-// when a connection breaks or the database is away.
+// Pages that edit: who may, how long unsaved changes are kept, and what happens to them and to all others when a
+// connection breaks or the database is unreachable.
 import assert from "node:assert/strict";
 import { after, before, mock, test } from "node:test";
 import { Database } from "../../viewer/database.js";
@@ -15,7 +15,7 @@ const insert = (server, session, id = "77", place = at) => server.post("insert",
 let editing, way, fragile, said;
 before(async () => {
     makeMeshes();
-    said = mock.method(console, "error", () => {}); // what the servers say of broken connections
+    said = mock.method(console, "error", () => {}); // the servers report broken connections
     editing = await serve("terrain", { edit: true });
     way = await fragileWay();
     fragile = await serve("terrain", { edit: true, dbname: way.dbname });
@@ -32,9 +32,9 @@ test("sessions that change nothing keep nobody out", async () => {
     assert.equal((await insert(editing, sessions[99])).status, 200);
     assert.equal(open(), "1");
     for (let i = 0; i < 100; ++i) assert.equal((await editing.post("begin")).status, 200);
-    assert.deepEqual((await editing.post("undo", {}, sessions[99])).body, { changes: 1 }); // what has changes is not forgotten
+    assert.deepEqual((await editing.post("undo", {}, sessions[99])).body, { changes: 1 }); // a session with changes is kept
     assert.equal(open(), "0");
-    assert.equal((await insert(editing, sessions[0])).status, 410); // the oldest of them is, so they are no more than a few
+    assert.equal((await insert(editing, sessions[0])).status, 410); // the oldest without changes is forgotten, so they stay few
 });
 
 test("while a page has changes another is refused at once, and not when they are saved or undone", async () => {
@@ -139,7 +139,7 @@ test("when the connection of a page breaks its changes are lost, and it is told;
         assert.deepEqual([body.changes, body.lost], [0, 2]);
     }
     await eventually(async () => (await fragile.get("/api/locate?x=400817&y=5200740")).status === 200, "an answer");
-    await eventually(async () => (await insert(fragile, other)).status === 200, "another page has the mesh"); // the server has to see it, too
+    await eventually(async () => (await insert(fragile, other)).status === 200, "another page has the mesh"); // the server has to notice, too
     assert.deepEqual((await fragile.post("undo", {}, other)).body, { changes: 1 });
     assert.equal(count(), before);
 });
@@ -151,7 +151,7 @@ test("while the database is away the answer is 503, and then all is as before", 
     way.break();
     for (const path of ["/api/info", "/api/locate?x=400817&y=5200740", "/tiles/picture/3/4/3"])
         assert.deepEqual(await fragile.get(path), { status: 503, body: { error: "the database cannot be reached" } });
-    assert.equal((await fetch(fragile.origin)).status, 200); // files of the page are there
+    assert.equal((await fetch(fragile.origin)).status, 200); // files of the page are still served
     assert.deepEqual(await insert(fragile, session), { status: 503, body: { error: "the database cannot be reached", changes: 0 } });
     assert.deepEqual((await fragile.post("undo", {}, session)).body, { changes: 0 });
     way.open = true;
@@ -184,7 +184,7 @@ test("whether changes are saved is found out when the connection breaks in betwe
             way.onCommit = null;
             if (!isSent) return way.break();
             server.removeAllListeners("data");
-            server.on("data", way.break); // the answer, which gets lost
+            server.on("data", way.break); // the answer gets lost
             send();
         };
         const answer = await fragile.post("save", {}, session);
@@ -203,12 +203,12 @@ test("changes of a mesh that follows a table are refused, with the reason and th
     try {
         const session = await begin(server);
         const { status, body } = await insert(server, session, "77", [1.5, 1.5]);
-        assert.equal(status, 400); // as for all that PostgreSQL refuses
+        assert.equal(status, 400); // as for every refusal by PostgreSQL
         assert.match(body.error, /points of mesh "followed" are rows of table "followed_points"/);
         assert.match(body.hint, /Change the table/);
         assert.equal((await server.get("/api/locate?x=1.2&y=1.1", { headers: { "X-Session": session } })).status, 200);
         assert.equal(psql("SELECT count(*) FROM abacus_vertices('followed')"), "25");
-        psql("INSERT INTO followed_points VALUES (77, 1.5, 1.5)"); // nothing keeps the writers of the table waiting
+        psql("INSERT INTO followed_points VALUES (77, 1.5, 1.5)"); // the writers of the table do not have to wait
     } finally {
         await server.stop();
         psql("DROP TABLE followed_points, followed, followed_vertices");

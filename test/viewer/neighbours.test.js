@@ -1,5 +1,5 @@
-// A place of a mesh as the viewer's server tells it: the mesh's own neighbours, also at faults and where ids are
-// equal, and only the values that a mesh has.
+// A place of a mesh as the viewer's server reports it: the mesh's own neighbours, even at faults and with equal ids,
+// and only the values that a mesh has.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { connect, psql, serve } from "./support.js";

@@ -1,6 +1,5 @@
-// The page in a browser without a screen: what each click and key is answered, that nothing is asked
-// of another host, and that no error is left in the console. Pictures go to the folder that
-// VIEWER_PICTURES names.
+// The page in a headless browser: the effect of each click and key; no request to another host; and no error left in
+// the console. Pictures go to the folder that VIEWER_PICTURES names.
 import assert from "node:assert/strict";
 import { mkdirSync } from "node:fs";
 import { after, afterEach, before, beforeEach, test } from "node:test";
@@ -14,7 +13,7 @@ before(async () => {
     makeMeshes();
     mkdirSync(pictures, { recursive: true });
     servers = { terrain: await serve("terrain", { edit: true }), globe: await serve("globe", { srid: 4326 }), rock: await serve("rock", { edit: true }) };
-    browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", // a WebGL without a graphics card
+    browser = await chromium.launch({ executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", // WebGL without a graphics card
         args: ["--no-sandbox", "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--ignore-gpu-blocklist"] });
 });
 after(async () => {
@@ -23,10 +22,10 @@ after(async () => {
 });
 beforeEach(async () => {
     page = await browser.newPage({ viewport: { width: 1000, height: 640 } });
-    page.setDefaultTimeout(120_000); // a machine may have much else to do
+    page.setDefaultTimeout(120_000); // in case the machine is busy
     asked = [];
     complaints = [];
-    refusals = /^$/; // requests that the server shall refuse; the browser says so in the console
+    refusals = /^$/; // requests that the server must refuse; the browser reports them in the console
     page.on("request", (request) => asked.push(request.url()));
     page.on("console", (message) => message.type() === "error" && complaints.push(message.text()));
     page.on("pageerror", (error) => complaints.push(error.message));
@@ -193,7 +192,7 @@ test("a point is added, moved and deleted; undo and save", async () => {
     await askAt(400893.5, 5200740.5);
     await says(/4711 deleted/);
     assert.equal(await page.locator("#changes").innerText(), "3 unsaved changes");
-    assert.equal(vertices(), before); // for others
+    assert.equal(vertices(), before); // for other pages
     await page.getByRole("button", { name: "Undo" }).click();
     await says(/3 changes undone/);
     await choose(/add a point/);
@@ -278,7 +277,7 @@ test("when the connection to the database breaks the page says by itself what is
     refusals = /status of (410|503)/;
     t.mock.method(console, "error", () => {});
     const way = await fragileWay();
-    const server = servers.fragile = await serve("terrain", { edit: true, dbname: way.dbname, absent: 30 }); // so it asks every five seconds
+    const server = servers.fragile = await serve("terrain", { edit: true, dbname: way.dbname, absent: 30 }); // so it checks every five seconds
     await open("fragile");
     await addAt("4714", 400892.5, 5200741.5);
     await says(/4714 added/);
@@ -290,7 +289,7 @@ test("when the connection to the database breaks the page says by itself what is
     await says(/the connection to the database broke; 1 unsaved change was lost/);
     assert.equal(await changes(), "No unsaved changes");
     way.open = true;
-    await page.waitForFunction((words) => document.getElementById("summary").textContent.includes(words), `, ${before} vertices`); // the mesh as it is
+    await page.waitForFunction((words) => document.getElementById("summary").textContent.includes(words), `, ${before} vertices`); // the present mesh
     await eventually(async () => {
         await addAt("4714", 400892.5, 5200741.5);
         return /4714 added/.test(await says(/4714 added|be reached|another transaction/));

@@ -1,5 +1,5 @@
-// The server of the viewer: answers are those of SQL; bad input, missing rights, other names,
-// clients that go away, and changes that are undone.
+// The server of the viewer: answers equal those of SQL; bad input, missing rights, other names, clients that go away,
+// and undone changes.
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
 import { readFileSync } from "node:fs";
@@ -114,7 +114,7 @@ test("odd addresses and bodies are the client's fault", async (t) => {
     assert.equal((await send("alive", "{}", "text/plain")).status, 415);
     assert.equal((await send("alive", "{}", "application/json; charset=utf-8")).status, 200);
     await editing.post("end", {}, session);
-    assert.equal(said.mock.callCount(), 0); // nothing of this is worth a line in the log
+    assert.equal(said.mock.callCount(), 0); // none of this deserves a line in the log
 });
 
 test("SQL in parameters is text", async () => {
@@ -260,7 +260,7 @@ test("changes that make no sense change nothing", async () => {
     assert.equal((await editing.post("insert", { id: "1", at: [1, 2] }, "no such session")).status, 410);
     assert.equal((await editing.get("/edit/begin", { method: "POST", body: "id=1" })).status, 415);
     assert.equal((await editing.get("/edit/begin", { method: "POST", body: "{", headers: { "Content-Type": "application/json" } })).status, 400);
-    assert.deepEqual((await editing.post("undo", {}, session)).body, { changes: 1 }); // those before are still there to be undone
+    assert.deepEqual((await editing.post("undo", {}, session)).body, { changes: 1 }); // earlier changes can still be undone
 });
 
 test("what a session has not saved is undone when it ends", async () => {
@@ -369,7 +369,7 @@ test("ids beyond 53 bits stay what they are", async () => {
             for (const row of rows) for (const id of [row.v0, row.v1, row.v2]) assert.ok(of(dimension).includes(id), id);
             const { body: { session } } = await server.post("begin");
             const at = dimension === 2 ? [1, 0] : [1, 0, 0];
-            for (const [id, status] of [["9007199254740992", 409], [9007199254740992, 400], ["9007199254740993", 200]]) // the number is 9007199254740993 as well
+            for (const [id, status] of [["9007199254740992", 409], [9007199254740992, 400], ["9007199254740993", 200]]) // the number is also 9007199254740993
                 assert.equal((await server.post("remove", { id, at }, session)).status, status, id);
             await server.post("end", {}, session);
         } finally {

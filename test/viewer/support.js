@@ -1,5 +1,4 @@
-// What the tests of the viewer share: meshes in the database that the environment names, and
-// servers that show them.
+// What the tests of the viewer share: meshes in the database that the environment names, and servers that show them.
 import { execFileSync } from "node:child_process";
 import { mkdtempSync, rmSync } from "node:fs";
 import { createRequire } from "node:module";

@@ -1,5 +1,5 @@
 /*
- * extension_type.c: types of other extensions, which may be missing, or be in any schema.
+ * extension_type.c: types of other extensions, which may be missing or in any schema.
  */
 #include "postgres.h"
 
@@ -37,7 +37,7 @@ schema_of(const char *extension)
 	return schema;
 }
 
-/* A type of an extension, by its name; InvalidOid if there is none. */
+/* A type of an extension by its name; InvalidOid if there is none. */
 Oid
 extension_type(const char *extension, const char *type)
 {

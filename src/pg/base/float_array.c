@@ -11,7 +11,7 @@
 #include "pg/base/float_array.h"
 #include "pg/port/port.h"
 
-/* Doubles as float8[], none of which is NULL: they lie in the array as they do here. */
+/* Doubles as float8[] without NULLs: the array holds them exactly as they are here. */
 static Datum
 array_without_nulls(const double *values, int size, int dimensions, const int *counts)
 {
@@ -68,14 +68,14 @@ attribute_array(const double *attributes, int count)
 	return float_array(attributes, 1, &count);
 }
 
-/* The same of rows one after the other. */
+/* The same for rows that follow one another. */
 Datum
 float_matrix(const double *values, int rows, int columns)
 {
 	return float_array(values, 2, (int[]) {rows, columns});
 }
 
-/* The same, but NaN stays NaN: for readers of tables that know no NULL within an array. */
+/* The same, but NaN stays NaN: for readers of tables that cannot read NULL within an array. */
 Datum
 float_matrix_of_nan(const double *values, int rows, int columns)
 {

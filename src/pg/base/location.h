@@ -1,5 +1,5 @@
 /*
- * location.h: where a row lies, as one word, in the form that the core keeps.
+ * location.h: the place of a row as one word, in the form that the core keeps.
  */
 #ifndef ABACUS_LOCATION_H
 #define ABACUS_LOCATION_H

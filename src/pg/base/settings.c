@@ -74,7 +74,7 @@ setting_cache_bytes(void)
 	return (size_t) cache_size_mb * 1024 * 1024;
 }
 
-/* Bytes that bringing points into order may take, for a change of a mesh. */
+/* Bytes that sorting points may take, for a change of a mesh. */
 size_t
 setting_sort_bytes(void)
 {
@@ -88,7 +88,7 @@ setting_query_sort_bytes(void)
 	return (size_t) work_mem * 1024;
 }
 
-/* Processors that this process may run on. */
+/* How many processors this process may run on. */
 static int
 processors(void)
 {
@@ -97,7 +97,7 @@ processors(void)
 	return sched_getaffinity(0, sizeof(set), &set) == 0 ? CPU_COUNT(&set) : 1;
 }
 
-/* Threads that may compute at once. A parallel worker is one of many already. */
+/* How many threads may compute at once. A parallel worker uses only one, as it is one of many. */
 int
 setting_threads(void)
 {

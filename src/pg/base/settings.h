@@ -4,7 +4,7 @@
 #ifndef ABACUS_SETTINGS_H
 #define ABACUS_SETTINGS_H
 
-/* Calls of the host until one fails, as abacus.fail_host_call asks; the host counts it down. */
+/* Host calls until one fails, set by abacus.fail_host_call; the host counts it down. */
 extern int	setting_calls_to_failure;
 
 extern void settings_define(void);

@@ -1,9 +1,9 @@
 /*
  * sql_function.h: declares a function that SQL can call.
  *
- * Symbols are hidden unless exported: all modules of a backend share one
- * space of names. Before PostgreSQL 16 PG_FUNCTION_INFO_V1 exports the record
- * that describes a function, but not the function.
+ * Symbols are hidden unless exported, since all modules of a backend share one name space. Before
+ * PostgreSQL 16, PG_FUNCTION_INFO_V1 exports the record that describes a function, but not the
+ * function.
  */
 #ifndef ABACUS_SQL_FUNCTION_H
 #define ABACUS_SQL_FUNCTION_H

@@ -1,9 +1,9 @@
 /*
- * utility.c: CREATE and DROP of what belongs to a mesh.
+ * utility.c: CREATE and DROP of objects that belong to a mesh.
  *
- * They run as any statement of the caller does, with PostgreSQL's own checks of
- * privileges and names, event triggers, and hooks of other modules. The user has not
- * written them, so errors do not quote them.
+ * They run like any statement of the caller, with PostgreSQL's own checks of privileges and names,
+ * event triggers, and hooks of other modules. The user has not written them, so errors do not quote
+ * them.
  */
 #include "postgres.h"
 
@@ -14,7 +14,7 @@
 
 #include "pg/base/utility.h"
 
-/* An error's position in this statement would be shown as one in the user's. */
+/* An error's position in this statement would be shown as a position in the user's. */
 static void
 forget_position(void *unused)
 {
@@ -36,7 +36,7 @@ run(const char *command)
 	PopActiveSnapshot();
 }
 
-/* What the statement has done is visible afterwards. */
+/* The effects of the statement are visible afterwards. */
 void
 utility_run(const char *command)
 {

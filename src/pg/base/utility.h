@@ -1,4 +1,4 @@
-/* utility.h: a utility statement that we make, run as if the caller had sent it. */
+/* utility.h: runs a utility statement of ours as if the caller had sent it. */
 #ifndef ABACUS_UTILITY_H
 #define ABACUS_UTILITY_H
 

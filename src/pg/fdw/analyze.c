@@ -1,5 +1,5 @@
 /*
- * analyze.c: ANALYZE of a published mesh. All rows are read, and some are kept at random.
+ * analyze.c: ANALYZE of a published mesh. It reads all rows and keeps some at random.
  */
 #include "postgres.h"
 
@@ -13,7 +13,7 @@
 #include "pg/fdw/mesh_rows.h"
 #include "pg/fdw/wrapper.h"
 
-/* Every column that there is. */
+/* All columns. */
 static Bitmapset *
 all_columns(const Published *published)
 {
@@ -25,7 +25,7 @@ all_columns(const Published *published)
 	return all;
 }
 
-/* Keeps `target` rows of all, each as likely as any other. */
+/* Keeps `target` of all rows, each with the same probability. */
 static int
 acquire_sample(Relation table, int level, HeapTuple *sample, int target, double *all,
 			   double *dead)
@@ -77,7 +77,7 @@ acquire_sample(Relation table, int level, HeapTuple *sample, int target, double 
 	return count;
 }
 
-/* Whether the mesh still has all that the table shows. */
+/* Whether the mesh still has everything that the table shows. */
 static bool
 has_all(const Published *published, Oid user)
 {
@@ -100,8 +100,8 @@ analyze_table(Relation table, AcquireSampleRowsFunc *acquire, BlockNumber *pages
 	MeshSize	size;
 
 	/*
-	 * A table without its mesh, or whose owner may not read it, is passed over with a warning. So is one
-	 * that shows an attribute which has gone: an error would end the ANALYZE of a whole database.
+	 * A warning skips a table without its mesh, or whose owner may not read it. It also skips a
+	 * table that shows a dropped attribute: an error would end the ANALYZE of a whole database.
 	 */
 	if (!OidIsValid(published_mesh(table)))
 		return false;

@@ -1,10 +1,9 @@
 /*
- * bounds.c: what a scan is limited to, once the values of its conditions are known.
+ * bounds.c: the part of a mesh that a scan needs, once the values of its conditions are known.
  *
- * A point is in all boxes that it must meet, so it is in what they have in common. A cell
- * may meet two boxes in different places. So cells are looked for by one condition alone:
- * one that the cell itself must meet, rather than its bounding box, and else by the least
- * box.
+ * A point must meet all boxes, so it is in their intersection. A cell may meet two boxes in
+ * different places. So only one condition is used to look for cells: one that the cell itself must
+ * meet, rather than its bounding box, or else the smallest box.
  */
 #include "postgres.h"
 
@@ -19,10 +18,10 @@
 #include "pg/postgis/geometry_box.h"
 #include "pg/postgis/geometry_errors.h"
 
-/* Relative error of a distance that PostGIS computes: much less than this. */
+/* PostGIS computes distances with a relative error far below this. */
 #define DISTANCE_ERROR 1e-9
 
-/* What they leave of an attribute. */
+/* The values of an attribute that the conditions allow. */
 typedef struct Range
 {
 	int			number;
@@ -30,7 +29,7 @@ typedef struct Range
 	double		greatest;
 } Range;
 
-/* What the conditions seen so far leave. */
+/* The limits from the conditions so far. */
 typedef struct Limits
 {
 	Bounds	   *bounds;
@@ -39,9 +38,9 @@ typedef struct Limits
 	double		lower[ABACUS_MAX_DIMENSION];
 	double		upper[ABACUS_MAX_DIMENSION];
 	bool		has_box;
-	ConditionKind kind;			/* of the condition from which the box of cells is */
+	ConditionKind kind;			/* of the condition that gave the box of cells */
 	int32		srid;			/* of the column, or SRID_UNKNOWN */
-	Range	   *ranges;			/* of each attribute that is compared */
+	Range	   *ranges;			/* of each attribute in a comparison */
 	int			range_count;
 	int64		least_code;
 	int64		greatest_code;
@@ -80,7 +79,7 @@ range_of(Limits *limits, int number)
 	return range;
 }
 
-/* A number that a column is compared with. */
+/* A column is compared with a number. */
 static void
 limit_number(Limits *limits, const Condition *condition, double value)
 {
@@ -99,7 +98,7 @@ limit_number(Limits *limits, const Condition *condition, double value)
 	}
 }
 
-/* An integer of any size that a code is compared with. */
+/* A code is compared with an integer of any size. */
 static void
 limit_code(Limits *limits, const Condition *condition, Datum datum)
 {
@@ -164,8 +163,8 @@ single_beyond(double x, float direction)
 }
 
 /*
- * Operators of PostGIS compare boxes that are rounded outward to single precision, both of
- * them. A box that meets another one then meets this one as it is.
+ * Operators of PostGIS compare boxes after rounding both outward to single precision. This box is
+ * widened so that it meets, as it is, every box that meets the rounded one.
  */
 static void
 round_outward(double *lower, double *upper)
@@ -177,7 +176,9 @@ round_outward(double *lower, double *upper)
 	}
 }
 
-/* A geometry that the row's own must meet, itself or by its box, or come so near to. */
+/*
+ * The row's geometry must meet a geometry, itself or by its box, or come within a distance of it.
+ */
 static void
 limit_geometry(Limits *limits, const Condition *condition, Datum geometry, double distance)
 {
@@ -187,7 +188,7 @@ limit_geometry(Limits *limits, const Condition *condition, Datum geometry, doubl
 	int32		srid;
 	GeometryBox place = geometry_box(type, geometry, lower, upper, &srid);
 
-	/* PostGIS says so of each row that it examines: there may be none to examine */
+	/* PostGIS reports this for each row that it examines, but there may be none to examine */
 	if (condition->kind != CONDITION_BOX && limits->srid != SRID_UNKNOWN && srid != limits->srid)
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
@@ -197,7 +198,7 @@ limit_geometry(Limits *limits, const Condition *condition, Datum geometry, doubl
 				 : errmsg("the geometry has SRID %d, but the geometries of the foreign table have SRID %d",
 						  srid, limits->srid),
 				 errhint("Transform the geometry. If the SRID of the mesh has been changed, publish the mesh again.")));
-	if (!(distance >= 0))		/* PostGIS says what is wrong with it */
+	if (!(distance >= 0))		/* PostGIS reports what is wrong with it */
 		return;
 	switch (place)
 	{
@@ -238,7 +239,7 @@ set_window(const Limits *limits, abacus_window *window)
 	}
 }
 
-/* The range of one attribute: the first that has both ends, or else the first that has one. */
+/* The range of one attribute: the first with two ends, or else the first with one. */
 static void
 set_range(const Limits *limits, Bounds *bounds)
 {
@@ -273,8 +274,8 @@ set_codes(const Limits *limits, Bounds *bounds)
 }
 
 /*
- * What the conditions limit a scan to, those whose values are not known left out. `srid`: of the
- * column with geometries; an error if what must meet these has another one.
+ * The limits that the conditions set on a scan; conditions with unknown values are skipped. `srid`:
+ * of the column with geometries; it is an error if a condition's geometry has another one.
  */
 void
 conditions_bounds(List *conditions, Content content, uint32 dimension, int32 srid,
@@ -306,7 +307,7 @@ conditions_bounds(List *conditions, Content content, uint32 dimension, int32 sri
 			 !value(context, foreach_current_index(cell), true, &distance, &distance_isnull)))
 			continue;
 		if (isnull || distance_isnull)
-			bounds->nothing = true; /* these are never true of NULL */
+			bounds->nothing = true; /* these are never true for NULL */
 		else if (condition->column.holds == HOLDS_GEOMETRY)
 			limit_geometry(&limits, condition, datum, DatumGetFloat8(distance));
 		else if (condition->column.holds == HOLDS_CODE)

@@ -1,14 +1,13 @@
 /*
- * conditions.c: the conditions of a query that tell which pages of a mesh are needed.
+ * conditions.c: the conditions of a query that show which pages of a mesh are needed.
  *
- * Of points: comparisons of a coordinate or an attribute with a value. Of cells: comparisons
- * of the code. Of all geometries: the
- * operators and functions of PostGIS that hold only where the geometries, or their boxes,
- * meet. The value may be a constant, a parameter or anything else that does not depend on
- * the row.
+ * On points: comparisons of a coordinate or an attribute with a value. On cells: comparisons of the
+ * code. On all geometries: the operators and functions of PostGIS that are true only if the
+ * geometries, or their boxes, meet. The value may be a constant, a parameter or anything else that
+ * does not depend on the row.
  *
- * The pages that are read have all rows that meet these conditions, and others. So PostgreSQL
- * examines each row once more, by every condition.
+ * The pages contain all rows that meet these conditions, and others. So PostgreSQL checks each row
+ * again, with every condition.
  */
 #include "postgres.h"
 
@@ -24,7 +23,10 @@
 #include "pg/port/port.h"
 #include "pg/postgis/catalogue.h"
 
-/* What a function of PostGIS, or one behind an operator, needs to be true; false if it tells nothing. */
+/*
+ * What must hold for a PostGIS function, or one behind an operator, to be true; false if that is
+ * unknown.
+ */
 static bool
 kind_of_postgis(const char *name, ConditionKind *kind)
 {
@@ -60,7 +62,7 @@ kind_of_postgis(const char *name, ConditionKind *kind)
 	return false;
 }
 
-/* The column of the table that an expression is; holds nothing if it is none. */
+/* The table column that an expression refers to; it holds nothing if it is not a column. */
 Column
 condition_column(const Shown *shown, Node *expression)
 {
@@ -84,7 +86,9 @@ is_fixed(const Shown *shown, Node *expression)
 		!contain_volatile_functions(expression) && !contain_subplans(expression);
 }
 
-/* A comparison of a column of a type with a number: what it asks of the column, its left side. */
+/*
+ * A comparison of a column of this type with a number: the condition on the column, its left side.
+ */
 static bool
 kind_of_comparison(Oid operator, Oid type, ConditionKind *kind)
 {
@@ -157,7 +161,7 @@ of_geometries(const Shown *shown, Oid function, List *arguments, Condition *cond
 		condition->column.holds == HOLDS_GEOMETRY;
 }
 
-/* Whether a clause is a condition that tells which pages are needed. */
+/* Whether a clause is a condition that shows which pages are needed. */
 bool
 condition_of_clause(const Shown *shown, Expr *clause, Condition *condition)
 {
@@ -174,7 +178,7 @@ condition_of_clause(const Shown *shown, Expr *clause, Condition *condition)
 	return false;
 }
 
-/* The conditions among clauses of the planner. */
+/* The conditions among the planner's clauses. */
 List *
 conditions_of_clauses(const Shown *shown, List *clauses)
 {
@@ -191,7 +195,7 @@ conditions_of_clauses(const Shown *shown, List *clauses)
 	return conditions;
 }
 
-/* Conditions as a plan keeps them: numbers, and the expressions in their order. */
+/* Conditions as a plan stores them: numbers, and the expressions in order. */
 List *
 conditions_pack(List *conditions, List **expressions)
 {

@@ -1,5 +1,5 @@
 /*
- * conditions.h: the conditions of a query that tell which pages of a mesh are needed.
+ * conditions.h: the conditions of a query that show which pages of a mesh are needed.
  */
 #ifndef ABACUS_CONDITIONS_H
 #define ABACUS_CONDITIONS_H
@@ -14,21 +14,21 @@ typedef enum ConditionKind
 	CONDITION_LEAST,			/* the column is not less than the value */
 	CONDITION_GREATEST,
 	CONDITION_EQUAL,
-	CONDITION_BOX,				/* its box meets that of the value, rounded as PostGIS does */
+	CONDITION_BOX,				/* its box meets the value's box, rounded as in PostGIS */
 	CONDITION_TOUCH,			/* it meets the value itself */
 	CONDITION_NEAR				/* it is no further from the value than a distance */
 } ConditionKind;
 
-/* A column, and what is asked of it. */
+/* A condition on a column. */
 typedef struct Condition
 {
 	ConditionKind kind;
 	Column		column;
 	Expr	   *value;			/* does not depend on the row */
-	Expr	   *distance;		/* of CONDITION_NEAR; else NULL */
+	Expr	   *distance;		/* of CONDITION_NEAR, otherwise NULL */
 } Condition;
 
-/* A published mesh as a query has it. */
+/* A published mesh in a query. */
 typedef struct Shown
 {
 	PlannerInfo *root;
@@ -36,22 +36,22 @@ typedef struct Shown
 	const Published *published;
 } Shown;
 
-/* No SRID is known that geometries must have. */
+/* No SRID that geometries must have is known. */
 #define SRID_UNKNOWN (-1)
 
-/* What a scan is limited to. */
+/* The limits of a scan. */
 typedef struct Bounds
 {
 	bool		nothing;		/* no row can meet the conditions */
 	abacus_window window;
 	bool		has_range;		/* of an attribute; of points only */
-	abacus_range range;			/* the attribute by its number that never comes again */
+	abacus_range range;			/* the attribute by its permanent number */
 	bool		has_codes;		/* of cells: a stretch of the curve instead of the window */
 	uint64		least_code;
 	uint64		greatest_code;
 } Bounds;
 
-/* The value of a condition, or its distance; false if it is not known, as while planning. */
+/* The value of a condition, or its distance; false if unknown, as while planning. */
 typedef bool (*ConditionValue) (void *context, int condition, bool distance, Datum *value,
 								bool *isnull);
 

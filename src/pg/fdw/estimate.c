@@ -1,10 +1,10 @@
 /*
  * estimate.c: how many rows and pages of a published mesh a query needs.
  *
- * The header tells how many simplices and vertices there are, and in which box. It is read
- * only where the user has the right to read it. Points are taken as spread evenly over the
- * box. A cell that meets a window may reach beyond it, so windows are taken as larger by a
- * cell; and by a page, of pages.
+ * The header says how many simplices and vertices there are, and in which box. It is read only if
+ * the user has the right to read it. The estimate assumes that points are spread evenly over the
+ * box. A cell that meets a window may reach beyond it, so for cells windows count as larger by a
+ * cell, and for pages as larger by a page.
  */
 #include "postgres.h"
 
@@ -22,13 +22,13 @@
 #include "pg/mesh/mesh.h"
 #include "pg/port/port.h"
 
-/* Of a mesh that the user may not read. */
+/* For a mesh that the user may not read. */
 #define UNKNOWN_ROWS 100000.0
 #define UNKNOWN_PAGES 100.0
-/* Of a window, or a geometry, that is known only when the query runs. */
+/* For a window or a geometry that is known only when the query runs. */
 #define UNKNOWN_SHARE 0.001
 
-/* Codes that there are. */
+/* The number of codes. */
 #define CODES_IN_THE_PLANE 0x1p62
 #define CODES_IN_SPACE 0x1p63
 
@@ -50,7 +50,7 @@ pages_of(Oid mesh)
 	return Max(1, pages);
 }
 
-/* Reads what is known of a mesh; as its user will, so that errors are the same. */
+/* Reads the size of a mesh, with the rights of the query's user, so that errors are the same. */
 void
 estimate_mesh(const Published *published, Oid user, MeshSize *size)
 {
@@ -72,7 +72,7 @@ estimate_mesh(const Published *published, Oid user, MeshSize *size)
 	host_destroy(reader->host);
 }
 
-/* Part of the domain that is in a window which is larger by 1/`parts` of the domain on each axis. */
+/* The share of the domain in a window that is enlarged by 1/`parts` of the domain on each axis. */
 static double
 part_in_window(const MeshSize *size, const abacus_window *window, double parts, int only_axis)
 {
@@ -111,7 +111,7 @@ typedef struct PlannedValues
 	List	   *conditions;
 } PlannedValues;
 
-/* What is known of a condition's value while planning. */
+/* The value of a condition, if it is known while planning. */
 static bool
 planned_value(void *context, int number, bool distance, Datum *value, bool *isnull)
 {
@@ -128,7 +128,7 @@ planned_value(void *context, int number, bool distance, Datum *value, bool *isnu
 	return true;
 }
 
-/* Whether something places the rows that is known only when the query runs. */
+/* Whether a condition on places has a value that is known only when the query runs. */
 static bool
 has_unknown(PlannedValues *values)
 {
@@ -147,7 +147,7 @@ has_unknown(PlannedValues *values)
 	return false;
 }
 
-/* What part of the mesh conditions leave, by where the rows are. */
+/* The share of the mesh that the conditions leave, judged by the places of the rows. */
 void
 estimate_share(const Shown *shown, const MeshSize *size, List *conditions, Share *share)
 {
@@ -182,7 +182,7 @@ estimate_share(const Shown *shown, const MeshSize *size, List *conditions, Share
 		share->rows = Min(share->rows, UNKNOWN_SHARE);
 		share->pages = Min(share->pages, sqrt(UNKNOWN_SHARE));
 	}
-	/* as RangeScan of the core decides */
+	/* the same rule as in RangeScan of the core */
 	share->is_whole = share->pages > 0.25;
 	if (share->is_whole)
 		share->pages = 1;

@@ -6,7 +6,7 @@
 
 #include "pg/fdw/conditions.h"
 
-/* What is known of a mesh while a query is planned. */
+/* The size of a mesh, as far as it is known while a query is planned. */
 typedef struct MeshSize
 {
 	bool		is_known;		/* the header could be read */
@@ -17,10 +17,10 @@ typedef struct MeshSize
 	double		pages;
 } MeshSize;
 
-/* What conditions leave of it. */
+/* The shares that conditions leave. */
 typedef struct Share
 {
-	double		rows;			/* parts of all, from 0 to 1 */
+	double		rows;			/* shares of all, from 0 to 1 */
 	double		pages;
 	bool		is_whole;		/* pages are read in their order */
 } Share;

@@ -37,7 +37,7 @@ enum
 	PUBLISH_Z
 };
 
-/* What is published, and how. */
+/* What to publish, and how. */
 typedef struct Publishing
 {
 	Oid			mesh;
@@ -68,7 +68,7 @@ is_named(const Definition *definition, const char *name)
 	return false;
 }
 
-/* Adds a column. A name that another one has gets a number. */
+/* Adds a column. If its name is taken, it gets a number. */
 static void
 add_column(Definition *definition, const char *name, const char *type, const char *holds,
 		   const char *more)
@@ -82,7 +82,7 @@ add_column(Definition *definition, const char *name, const char *type, const cha
 					 quote_identifier(unique), type, holds, more);
 }
 
-/* Columns of ids or of coordinates, which are named as what they hold. */
+/* Adds columns of ids or of coordinates, named after their content. */
 static void
 add_named_columns(Definition *definition, const char *const *names, int count, const char *type)
 {
@@ -90,7 +90,7 @@ add_named_columns(Definition *definition, const char *const *names, int count, c
 		add_column(definition, names[i], type, names[i], "");
 }
 
-/* The number of an attribute as an option has it. */
+/* The number of an attribute as an option stores it. */
 static uint32
 attribute_number(const Publishing *publication, uint32 position)
 {
@@ -105,7 +105,7 @@ add_attributes(Definition *definition, const Publishing *publication)
 				   psprintf("attribute %u", attribute_number(publication, i)), "");
 }
 
-/* What corners have of all attributes. */
+/* Adds the column with all attributes of the corners. */
 static void
 add_values(Definition *definition, const Publishing *publication)
 {
@@ -153,7 +153,7 @@ add_columns(Definition *definition, const Publishing *publication, Content conte
 	add_geometry(definition, publication, content);
 }
 
-/* Makes one foreign table; returns it. */
+/* Makes one foreign table and returns it. */
 static Oid
 make_table(const Publishing *publication, Content content, const char *name)
 {
@@ -175,7 +175,7 @@ make_table(const Publishing *publication, Content content, const char *name)
 	return table;
 }
 
-/* The name that is given for a table, or <mesh>_<what>. */
+/* The name given for a table, or <mesh>_<what>. */
 static const char *
 table_name(FunctionCallInfo fcinfo, int argument, Oid mesh, const char *what)
 {
@@ -192,7 +192,7 @@ table_name(FunctionCallInfo fcinfo, int argument, Oid mesh, const char *what)
 	return name;
 }
 
-/* The attribute that becomes Z; -1 if none is given. */
+/* The attribute that becomes Z; -1 if not given. */
 static int
 z_argument(FunctionCallInfo fcinfo, const Publishing *publication)
 {
@@ -203,7 +203,7 @@ z_argument(FunctionCallInfo fcinfo, const Publishing *publication)
 	return header_find_attribute(publication->names, text_to_cstring(PG_GETARG_TEXT_PP(PUBLISH_Z)));
 }
 
-/* The SRID of the geometries: that of the mesh, or one that is given for a mesh without one. */
+/* The SRID of the geometries: that of the mesh, or the given one if the mesh has none. */
 static int
 srid_argument(FunctionCallInfo fcinfo, const Publishing *publication)
 {
@@ -213,7 +213,7 @@ srid_argument(FunctionCallInfo fcinfo, const Publishing *publication)
 	return PG_GETARG_INT32(PUBLISH_SRID);
 }
 
-/* How geometries are published: without an argument if PostGIS is there. */
+/* Whether and how to publish geometries: by default, if PostGIS is installed. */
 static void
 geometry_arguments(FunctionCallInfo fcinfo, Publishing *publication)
 {
@@ -254,8 +254,8 @@ regclass_array(const Oid *tables, int count)
 }
 
 /*
- * Reads the mesh as it is now: like all definitions that of a table goes by what is there, also by
- * what other functions of the same statement have done.
+ * Reads the mesh as it is now. Like any table definition, this one uses the latest state, including
+ * the changes of other functions in the same statement.
  */
 static Reader *
 read_mesh(Publishing *publication)
@@ -320,7 +320,7 @@ abacus_sql_unpublish(PG_FUNCTION_ARGS)
 	StringInfoData command;
 	ListCell   *cell;
 
-	/* as mesh_table_open(), but who may drop the tables need not be able to read the mesh */
+	/* as mesh_table_open(), but dropping the tables does not need the right to read the mesh */
 	if (mesh_of_table(mesh) != mesh)
 		table_close(mesh_table_open(mesh, MESH_READ), NoLock);
 	initStringInfo(&command);

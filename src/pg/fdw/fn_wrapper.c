@@ -1,6 +1,6 @@
 /*
- * fn_wrapper.c: the foreign-data wrapper as PostgreSQL asks for it, and the functions in the
- * definitions of its tables.
+ * fn_wrapper.c: the functions by which PostgreSQL uses the foreign-data wrapper, and the functions
+ * in the definitions of its tables.
  */
 #include "postgres.h"
 
@@ -29,7 +29,7 @@ abacus_sql_fdw_handler(PG_FUNCTION_ARGS)
 	PG_RETURN_POINTER(routine);
 }
 
-/* Whether an option has a place in this catalogue, with this value. */
+/* Whether an option may stand in this catalogue with this value. */
 static bool
 is_valid(Oid catalogue, const char *name, const char *value)
 {
@@ -68,7 +68,9 @@ abacus_sql_fdw_validator(PG_FUNCTION_ARGS)
 	PG_RETURN_VOID();
 }
 
-/* abacus_published(regclass) -> boolean: true; a constraint names the mesh of a table by it */
+/*
+ * abacus_published(regclass) -> boolean: always true; a constraint names the table's mesh with it
+ */
 Datum
 abacus_sql_published(PG_FUNCTION_ARGS)
 {

@@ -1,7 +1,7 @@
 /*
  * geometry_column.c: values of a column of geometries.
  *
- * The column's type modifier tells its SRID; geometries get it as they are received.
+ * The column's type modifier gives the SRID, which geometries get as they are received.
  */
 #include "postgres.h"
 

@@ -1,8 +1,8 @@
 /*
  * mesh_rows.c: the rows of a published mesh, one by one.
  *
- * The core's scan hands out one simplex or vertex at a time, and reads a page when those of
- * the page before have gone. Between two rows nothing of PostgreSQL is held. So a query that
+ * The core's scan returns one simplex or vertex at a time, and reads a page after the rows of the
+ * page before have been returned. Between two rows nothing of PostgreSQL is held. So a query that
  * stops early has read only the pages that it needed.
  */
 #include "postgres.h"
@@ -31,14 +31,14 @@ struct MeshRows
 	abacus_cells *cells;		/* one of the two, once begun */
 	abacus_faces *points;
 	Nearest    *nearest;		/* or instead of them */
-	uint64		pages;			/* of scans before */
+	uint64		pages;			/* read by earlier scans */
 	Numbering  *numbering;		/* of attributes */
-	int		   *positions;		/* of the attribute in each wanted column, -1 if there is none */
+	int		   *positions;		/* of the attribute in each wanted column; -1 if none */
 	GeometryMaker **makers;		/* of columns with geometries */
-	int32		srid;			/* of these, or SRID_UNKNOWN if they differ or there are none */
+	int32		srid;			/* of these; SRID_UNKNOWN if they differ, or without geometries */
 };
 
-/* What a row is made of. */
+/* The data from which a row is made. */
 typedef struct MeshRow
 {
 	uint32		dimension;
@@ -52,7 +52,7 @@ static Datum geometry(const MeshRows *rows, MeshRow *row, GeometryMaker *maker, 
 
 /* ---- Opening ------------------------------------------------------------- */
 
-/* An error if attributes that a column holds have been dropped. */
+/* An error if a column's attributes have been dropped. */
 static void
 check_attributes(const MeshRows *rows, Relation table, int at)
 {
@@ -65,7 +65,7 @@ check_attributes(const MeshRows *rows, Relation table, int at)
 				 errhint("Call abacus_unpublish() and then abacus_publish().")));
 }
 
-/* An error if the mesh lacks what a column holds. */
+/* An error if the mesh lacks the content of a column. */
 static void
 check_column(const MeshRows *rows, Relation table, int at)
 {
@@ -87,7 +87,7 @@ check_column(const MeshRows *rows, Relation table, int at)
 	check_attributes(rows, table, at);
 }
 
-/* Where the mesh has the attribute that a column holds; -1 if there is none. */
+/* The position of a column's attribute in the mesh; -1 if there is none. */
 static int
 position_of(const MeshRows *rows, const Column *column)
 {
@@ -97,7 +97,7 @@ position_of(const MeshRows *rows, const Column *column)
 		? numbering_position(rows->numbering, (uint32) column->number) : -1;
 }
 
-/* The SRID that a column's geometries get: that of one at 0. */
+/* The SRID that a column's geometries get, read from a geometry at 0. */
 static int32
 srid_of(const MeshRows *rows, GeometryMaker *maker, int number)
 {
@@ -144,8 +144,8 @@ prepare_columns(MeshRows *rows, Relation table)
 }
 
 /*
- * Opens the mesh for reading under the active snapshot, with the rights of a user. `wanted`:
- * the columns whose values are asked for, from 0.
+ * Opens the mesh for reading under the active snapshot, with the rights of a user. `wanted`: the
+ * columns whose values are needed, from 0.
  */
 MeshRows *
 mesh_rows_open(Relation table, const Published *published, const Bitmapset *wanted, Oid user,
@@ -177,7 +177,7 @@ mesh_rows_srid(const MeshRows *rows)
 	return rows->srid;
 }
 
-/* Ends what was begun. */
+/* Ends the scan that was begun. */
 static void
 end(MeshRows *rows)
 {
@@ -238,7 +238,7 @@ mesh_rows_begin(MeshRows *rows, const Bounds *bounds)
 
 /* ---- Rows ---------------------------------------------------------------- */
 
-/* An attribute, NaN if it is missing: of a point its value, of a cell the mean of its corners. */
+/* An attribute, NaN if it is missing: the value of a point, or the mean of a cell's corners. */
 static double
 attribute(const MeshRows *rows, const MeshRow *row, int number)
 {
@@ -350,7 +350,7 @@ make_nearest_row(void *context, const abacus_vertex *vertex, Datum *values, bool
 	make_row(context, &row, values, isnull);
 }
 
-/* Begins with the point that is nearest to a place in the plane; about `first` are wanted. */
+/* Begins with the nearest point to a place in the plane; about `first` points are wanted. */
 void
 mesh_rows_begin_nearest(MeshRows *rows, Relation table, Oid user, const double *place,
 						uint64 first)
@@ -361,8 +361,8 @@ mesh_rows_begin_nearest(MeshRows *rows, Relation table, Oid user, const double *
 }
 
 /*
- * The next row, in the current memory context or valid until the one after it; false after the
- * last. Columns that are not wanted are NULL.
+ * The next row; false after the last. It lives in the current memory context or until the next
+ * call. Columns that are not wanted are NULL.
  */
 bool
 mesh_rows_next(MeshRows *rows, Datum *values, bool *isnull)

@@ -1,10 +1,10 @@
 /*
  * nearest.c: the points of a mesh, the nearest to a place first.
  *
- * Nobody knows how many are wanted: conditions may drop some. So at first as many are looked
- * for as the query's limit says. When they have gone, four times as many are, and those that
- * were there before are passed over. That takes a third more than to know the number. Rows
- * wait in a tuple store, which keeps to work_mem.
+ * The number of wanted points is unknown, since conditions may drop some. So at first the query's
+ * limit says how many to look for. When these are used up, the next search looks for four times as
+ * many and skips the earlier ones. That takes a third more time than knowing the number. Rows wait
+ * in a tuple store, which keeps to work_mem.
  */
 #include "postgres.h"
 
@@ -25,8 +25,8 @@ struct Nearest
 	Oid			mesh;
 	Oid			user;
 	double		place[ABACUS_MAX_DIMENSION];
-	uint64		wanted;			/* ranks that are looked for next */
-	uint64		known;			/* ranks that have been found */
+	uint64		wanted;			/* ranks to look for next */
+	uint64		known;			/* ranks found */
 	bool		is_all;
 	NearestRow	row;
 	void	   *context;
@@ -90,7 +90,7 @@ put(void *context, int64_t place, uint64_t rank, const abacus_vertex *vertex, do
 	return ABACUS_HOST_OK;
 }
 
-/* Looks for those that come next. */
+/* Looks for the next points. */
 static void
 look(Nearest *nearest)
 {

@@ -52,7 +52,7 @@ is_place(Node *expression)
 		order_read_place(constant->consttype, constant->constvalue, place);
 }
 
-/* The place from which an expression is the distance; NULL if it is no distance. */
+/* The place whose distance an expression is; NULL if it is not a distance. */
 static Expr *
 place_of_distance(const Shown *shown, Node *expression)
 {
@@ -74,7 +74,7 @@ place_of_distance(const Shown *shown, Node *expression)
 	return is_own_place(shown, right) && is_place(left) ? (Expr *) left : NULL;
 }
 
-/* The place from which a query wants the nearest rows first; NULL if it wants none so. */
+/* The place, if a query wants the rows nearest to it first, or NULL. */
 Expr *
 order_place(const Shown *shown, RelOptInfo *rel)
 {
@@ -98,7 +98,7 @@ order_place(const Shown *shown, RelOptInfo *rel)
 	return NULL;
 }
 
-/* Reads a place of PostGIS or of PostgreSQL; false if it is no finite point of the plane. */
+/* Reads a place of PostGIS or of PostgreSQL; false if it is not a finite point of the plane. */
 bool
 order_read_place(Oid type, Datum value, double *place)
 {

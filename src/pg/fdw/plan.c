@@ -1,8 +1,8 @@
 /*
  * plan.c: how a query on a published mesh is planned.
  *
- * There is one path without parameters, and one for each set of other tables from which
- * conditions on places come: a join may then look for each row of these.
+ * There is one path without parameters, and one for each set of other tables that give conditions
+ * on places: a join may then look up places for each row of these tables.
  */
 #include "postgres.h"
 
@@ -24,12 +24,12 @@
 #include "pg/fdw/wrapper.h"
 #include "pg/port/port.h"
 
-/* What it costs to find one more of the nearest vertices, in rows. */
+/* The cost of finding one more of the nearest vertices, in rows. */
 #define ROWS_PER_NEAREST 20.0
-/* More of these are found at once only when they are asked for. */
+/* More of these are found together only on demand. */
 #define MOST_AT_FIRST 1000
 
-/* Simplices of a page that are looked at cost so many operators each. */
+/* Each simplex checked in a page costs this many operators. */
 #define OPERATORS_PER_ROW 2.0
 
 /* What planning keeps of a table: fdw_private of its RelOptInfo. */
@@ -61,7 +61,7 @@ get_rel_size(PlannerInfo *root, RelOptInfo *rel, Oid relid)
 
 	rel->tuples = planned->size.rows;
 	rel->pages = (BlockNumber) planned->size.pages;
-	set_baserel_size_estimates(root, rel);	/* width, and what conditions cost */
+	set_baserel_size_estimates(root, rel);	/* width, and the cost of conditions */
 	foreach(cell, rel->baserestrictinfo)
 	{
 		RestrictInfo *clause = lfirst_node(RestrictInfo, cell);
@@ -75,7 +75,7 @@ get_rel_size(PlannerInfo *root, RelOptInfo *rel, Oid relid)
 							  clauselist_selectivity(root, others, 0, JOIN_INNER, NULL));
 }
 
-/* Adds a path that is parameterized by some tables, or by none. */
+/* Adds a path that some tables, or none, parameterize. */
 static void
 add_scan(PlannerInfo *root, RelOptInfo *rel, const Share *share, Relids outer, double rows)
 {
@@ -96,7 +96,7 @@ add_scan(PlannerInfo *root, RelOptInfo *rel, const Share *share, Relids outer, d
 														outer, NIL));
 }
 
-/* Adds a path that gives the nearest points first, for a query with a limit that wants these. */
+/* Adds a path that returns the nearest points first, for a query with a limit that wants them. */
 static void
 add_nearest(PlannerInfo *root, RelOptInfo *rel)
 {
@@ -114,7 +114,7 @@ add_nearest(PlannerInfo *root, RelOptInfo *rel)
 															NULL, list_make1(place)));
 }
 
-/* Whether a clause from a join is a condition that tells pages. */
+/* Whether a clause from a join is a condition that shows which pages are needed. */
 static bool
 places_rows(RelOptInfo *rel, RestrictInfo *clause)
 {
@@ -134,7 +134,7 @@ is_place(PlannerInfo *root, RelOptInfo *rel, EquivalenceClass *ec, EquivalenceMe
 	return column.holds == HOLDS_COORDINATE || column.holds == HOLDS_CODE;
 }
 
-/* Sets of other tables from which conditions come that tell pages. */
+/* Sets of other tables that give such conditions. */
 static List *
 outer_sets(PlannerInfo *root, RelOptInfo *rel)
 {
@@ -185,7 +185,7 @@ get_paths(PlannerInfo *root, RelOptInfo *rel, Oid relid)
 	}
 }
 
-/* Numbers of the columns that a query asks for, from 0. */
+/* Numbers of the columns that a query needs, from 0. */
 static List *
 wanted_columns(const RelOptInfo *rel, int count)
 {
@@ -227,7 +227,7 @@ get_plan(PlannerInfo *root, RelOptInfo *rel, Oid relid, ForeignPath *path, List 
 							NIL, NIL, outer_plan);
 }
 
-/* Refuses to write rows, before the executor does without a hint. */
+/* Rejects changes of rows before the executor does so without a hint. */
 static List *
 plan_modify(PlannerInfo *root, ModifyTable *plan, Index target, int subplan)
 {

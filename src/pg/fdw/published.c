@@ -1,15 +1,15 @@
 /*
  * published.c: a foreign table that shows a mesh.
  *
- * An option would name the mesh as it was called when the table was made. So a constraint
- * of the table names it, CHECK (abacus_published('mesh')), as a regclass. PostgreSQL keeps
- * that by the OID: the mesh may be renamed or move to another schema. A dump writes the
- * name that the mesh has then, and restores the mesh before the table.
+ * An option would keep the name that the mesh had when the table was made. So a constraint of the
+ * table names it as a regclass, CHECK (abacus_published('mesh')), which PostgreSQL stores as an
+ * OID: the mesh may be renamed or move to another schema. A dump writes the current name of the
+ * mesh, and restores the mesh before the table.
  *
- * What a column holds is an option of the column. So columns may be renamed or dropped.
- * Attributes have numbers there that never come again (numbering.c), since they can be renamed and
- * dropped as well. A column with the values of all of them has how many had been dropped when it was
- * made: as long as there are no more, each value is where it was.
+ * An option of a column says what the column holds. So columns may be renamed or dropped. There,
+ * attributes have permanent numbers (numbering.c), since they can be renamed and dropped as well. A
+ * column with the values of all attributes stores how many had been dropped when it was made. As
+ * long as no more are dropped, each value keeps its position.
  */
 #include "postgres.h"
 
@@ -43,7 +43,7 @@ published_content(const char *word, Content *content)
 	return true;
 }
 
-/* The figure that a word is, if it is not less than `least`; else -1. */
+/* The number that a word is, if it is not less than `least`, otherwise -1. */
 static int
 figure(const char *word, long least)
 {
@@ -53,21 +53,21 @@ figure(const char *word, long least)
 	return end != word && *end == '\0' && value >= least && value <= NUMBERING_LIMIT ? (int) value : -1;
 }
 
-/* The number of an attribute, from 0, that a word tells from 1; negative if it tells none. */
+/* The number of an attribute, from 0; the word gives it from 1. Negative if it is not valid. */
 int
 published_number(const char *word)
 {
 	return figure(word, 1) - 1;
 }
 
-/* How many attributes have been dropped, as a word tells; negative if it tells nothing. */
+/* How many attributes have been dropped, according to a word; negative if it is not valid. */
 int
 published_dropped(const char *word)
 {
 	return figure(word, 0);
 }
 
-/* What a word says that a column holds. */
+/* The content of a column, according to a word. */
 bool
 published_holds(const char *word, Column *column)
 {
@@ -140,7 +140,7 @@ type_of(const Column *column)
 	}
 }
 
-/* Whether cells, or points, have what a column holds. */
+/* Whether cells, or points, have the content of a column. */
 static bool
 belongs(const Column *column, Content content)
 {
@@ -185,7 +185,7 @@ read_column(Relation table, Content content, Form_pg_attribute attribute, Column
 		column->number = published_dropped(dropped);
 }
 
-/* Whether the attributes that a column shows are all there. */
+/* Whether all attributes that a column shows still exist. */
 bool
 published_has(const Column *column, const Numbering *numbering)
 {
@@ -202,7 +202,7 @@ published_has(const Column *column, const Numbering *numbering)
 	}
 }
 
-/* The mesh that a constraint names; InvalidOid if this is no such constraint. */
+/* The mesh that a constraint names; InvalidOid if the constraint is of another kind. */
 static Oid
 mesh_of_check(const char *check)
 {
@@ -234,7 +234,7 @@ published_mesh(Relation table)
 	return mesh;
 }
 
-/* Reads what a foreign table shows, in the current memory context. */
+/* Reads the definition of a foreign table, in the current memory context. */
 Published *
 published_read(Relation table)
 {
@@ -260,7 +260,7 @@ published_read(Relation table)
 }
 
 /*
- * Opens the mesh for reading under the active snapshot, with the rights of a user; *numbering gets
+ * Opens the mesh for reading under the active snapshot, with the rights of a user. *numbering gets
  * the numbers of its attributes, unless it is NULL. Nothing of PostgreSQL stays open.
  */
 Reader *
@@ -271,7 +271,7 @@ published_open_mesh(const Published *published, Oid user, MemoryContext memory,
 	Oid			caller;
 	int			context;
 
-	/* after an error the transaction, or the nested one, takes the user back */
+	/* after an error the transaction, or the nested one, restores the user */
 	GetUserIdAndSecContext(&caller, &context);
 	SetUserIdAndSecContext(user, context | SECURITY_LOCAL_USERID_CHANGE);
 	reader = reader_open(published->mesh, memory);
@@ -282,7 +282,7 @@ published_open_mesh(const Published *published, Oid user, MemoryContext memory,
 	return reader;
 }
 
-/* A dump does not carry what lets a table go with its mesh: see mesh.c. */
+/* A dump does not carry the entry that drops a table with its mesh: see mesh.c. */
 void
 published_bind_restored(Relation mesh)
 {

@@ -1,6 +1,6 @@
 /*
- * published.h: a foreign table that shows a mesh: which mesh, what of it, and what
- * each column holds.
+ * published.h: a foreign table that shows a mesh: which mesh, which part of it, and what each
+ * column holds.
  */
 #ifndef ABACUS_PUBLISHED_H
 #define ABACUS_PUBLISHED_H
@@ -37,7 +37,7 @@ typedef enum Holds
 	HOLDS_VALUES,				/* their attributes; `number`: how many had been dropped */
 	HOLDS_ID,
 	HOLDS_COORDINATE,			/* of a point: on axis `number` */
-	HOLDS_ATTRIBUTE,			/* by its `number` that never comes again: of a point its value, of a cell the mean of its corners */
+	HOLDS_ATTRIBUTE,			/* by its permanent `number`: a point's value, a cell's mean */
 	HOLDS_GEOMETRY				/* with attribute `number` as Z, unless that is negative */
 } Holds;
 

@@ -1,8 +1,8 @@
 /*
  * scan.c: how a query on a published mesh runs.
  *
- * The mesh is opened when the first row is asked for: what the conditions compare with is
- * known then. A scan that begins again keeps the mesh open, and looks for its pages anew.
+ * The mesh is opened when the first row is needed, since the values in the conditions are known
+ * then. A scan that begins again keeps the mesh open, and looks for its pages again.
  */
 #include "postgres.h"
 
@@ -54,7 +54,7 @@ begin_scan(ForeignScanState *state, int flags)
 	state->fdw_state = scan;
 }
 
-/* Where the value of a condition, or its distance, is among the expressions. */
+/* The position of a condition's value, or of its distance, among the expressions. */
 static int
 place_of_value(const MeshScan *scan, int number, bool distance)
 {
@@ -75,7 +75,7 @@ value_now(void *context, int number, bool distance, Datum *value, bool *isnull)
 	return true;
 }
 
-/* The place from which the nearest rows are wanted: the last expression, a constant. */
+/* The place for the nearest rows: the last expression, a constant. */
 static void
 read_place(ForeignScanState *state, double *place)
 {
@@ -106,7 +106,7 @@ begin_rows(ForeignScanState *state, MeshScan *scan)
 	scan->has_begun = true;
 }
 
-/* PostgreSQL calls it in a memory context that it empties for each row. */
+/* PostgreSQL calls it in a memory context that is emptied for each row. */
 static TupleTableSlot *
 iterate_scan(ForeignScanState *state)
 {
@@ -140,7 +140,7 @@ end_scan(ForeignScanState *state)
 
 /* ---- EXPLAIN ------------------------------------------------------------- */
 
-/* A value of a condition that EXPLAIN can tell without running the query. */
+/* A value of a condition that EXPLAIN knows without running the query. */
 static bool
 constant_value(void *context, int number, bool distance, Datum *value, bool *isnull)
 {

@@ -6,10 +6,10 @@
 
 #include "foreign/fdwapi.h"
 
-/* What a plan keeps of a scan: fdw_private. */
+/* What a plan stores for a scan: fdw_private. */
 enum
 {
-	PRIVATE_COLUMNS,			/* numbers of those that are wanted, from 0 */
+	PRIVATE_COLUMNS,			/* numbers of the wanted columns, from 0 */
 	PRIVATE_CONDITIONS,			/* as conditions_pack() makes them */
 	PRIVATE_NEAREST				/* how many to look for at first, if the nearest rows are wanted */
 };

@@ -1,8 +1,8 @@
 /*
  * goose_row.c: a simplex with its box as a row, and back.
  *
- * A ghost is a row without its last corner, whose columns are NULL. What is read is not
- * trusted: anything may have been written there meanwhile.
+ * A ghost is a row without its last corner, whose columns are NULL. Rows that are read are not
+ * trusted: anyone may have written anything there meanwhile.
  */
 #include "postgres.h"
 
@@ -30,7 +30,7 @@ goose_box_type(int dimension)
 	return type;
 }
 
-/* A box as a Datum, in room of the caller's. */
+/* A box as a Datum, in memory of the caller. */
 Datum
 goose_box(int dimension, const double *lower, const double *upper, GooseBox *room)
 {
@@ -81,7 +81,7 @@ read_box(int dimension, Datum datum, double *lower, double *upper)
 	return true;
 }
 
-/* The columns of a row; its box is in room of the caller's. */
+/* The columns of a row; its box is in memory of the caller. */
 void
 goose_row_encode(int dimension, const abacus_boxed_simplex *row, Datum *values, bool *isnull,
 				 GooseBox *room)

@@ -1,21 +1,19 @@
 /*
- * goose_table.c: a table of one row a simplex under a GiST index of boxes.
+ * goose_table.c: a table with one row for each simplex, and a GiST index of boxes.
  *
  * Rows are found by index scans that are kept open and rescanned, and changed
  * by heap_insert(), index_insert() and simple_heap_delete(): no SPI and no
  * executor once the table is made.
  *
- * Two of three simplices that an insertion makes are removed by later ones, all in one
- * command. PostgreSQL keeps their index entries, since a rollback to a savepoint or an
- * older snapshot might need them. Searches would go through three times the entries,
- * and visit a dead row for each that they hit. But the same command makes and fills
- * this table: nobody else sees it, and a rollback of the command drops the whole table.
- * So the entry of a removed row is marked dead at once, as index scans mark rows that
- * are dead to all (kill_prior_tuple). Further scans step over it, and its room is used
- * again when its page is full. GiST has no other call for that, so a removal is a
- * search for the row's box. So it is in the dissertation's R-tree, whose deletions
- * spend 98 % of their time searching. The rows themselves stay in the heap until
- * VACUUM.
+ * Of three simplices that an insertion makes, later ones remove two, all in one command. PostgreSQL
+ * keeps their index entries, since a rollback to a savepoint or an older snapshot might need them.
+ * Searches would go through three times the entries, and visit a dead row for each that they hit.
+ * But the same command makes and fills this table: no one else sees it, and a rollback of the
+ * command drops the whole table. So the entry of a removed row is marked dead at once, as index
+ * scans mark rows that are dead to all (kill_prior_tuple). Further scans skip it, and its space is
+ * reused when its page is full. GiST has no other call for that, so a removal is a search for the
+ * row's box. It is the same in the dissertation's R-tree, whose deletions spend 98 % of their time
+ * searching. The rows themselves stay in the heap until VACUUM.
  *
  * All rows are inserted under one command id and removed under the next. PostgreSQL
  * lets only a later command remove a row. With an id for each step, every removed row
@@ -74,7 +72,7 @@ create_table(const char *name, Oid namespace, int dimension)
 	return new_table_id(namespace, name);
 }
 
-/* An event trigger may have changed what was made: it must be what the code below relies on. */
+/* An event trigger may have changed the new table: it must be what the code below relies on. */
 static void
 check_shape(const GooseTable *table, List *indexes)
 {
@@ -104,7 +102,7 @@ init_key(ScanKey key, Relation index, StrategyNumber strategy)
 	ScanKeyEntryInitialize(key, 0, 1, strategy, type, InvalidOid, get_opcode(operator), (Datum) 0);
 }
 
-/* Makes a table of that name, and opens it, in the current memory context. */
+/* Makes a table with that name and opens it, in the current memory context. */
 GooseTable *
 goose_table_create(text *name, int dimension)
 {
@@ -174,8 +172,8 @@ insert_row(GooseTable *table, const abacus_boxed_simplex *row)
 /* ---- Searches -------------------------------------------------------------------- */
 
 /*
- * The efficiency of a search is measured by the boxes that it looks at. GiST calls the
- * operator class once for each box, so these calls are counted.
+ * A search is measured by the boxes that it compares. GiST calls the operator class once for each
+ * box, so these calls are counted.
  */
 static uint64 boxes_looked_at;
 static PGFunction look_at_box;
@@ -195,7 +193,7 @@ search(GooseTable *table, ScanKey key, const double *lower, const double *upper,
 
 	key->sk_argument = goose_box(table->dimension, lower, upper, room);
 	index_rescan(table->scan, key, 1, NULL, 0);
-	look_at_box = consistent->fn_addr;	/* a rescan puts it there anew */
+	look_at_box = consistent->fn_addr;	/* a rescan installs it again */
 	consistent->fn_addr = count_box;
 	boxes_looked_at = 0;
 }
@@ -222,10 +220,10 @@ find_rows(GooseTable *table, const double *point)
 }
 
 /*
- * Searches for a row's box and marks the row's index entry dead; false if it is not there. GiST keeps
- * in mind what is to be marked until it leaves a page, but never marks an index of one page.
- * It would mark these entries on the first page that it leaves later. So there is nothing to mark
- * until there are more pages.
+ * Searches for a row's box and marks the row's index entry dead; false if it is not there. GiST
+ * collects the marks until it leaves a page, but never marks an index of only one page. It would
+ * then set these marks on the first page that it leaves later. So nothing is marked until there are
+ * more pages.
  */
 static bool
 kill_entry(GooseTable *table, const abacus_boxed_simplex *row)
@@ -239,7 +237,7 @@ kill_entry(GooseTable *table, const abacus_boxed_simplex *row)
 	if (!table->has_leaves)
 		table->has_leaves = RelationGetNumberOfBlocks(table->index) > 1;
 	search(table, &table->equals, row->lower, row->upper, &room);
-	/* to the end, since the mark is made when the scan goes on */
+	/* to the end, since the mark is made when the scan continues */
 	while ((tid = index_getnext_tid(table->scan, ForwardScanDirection)) != NULL)
 		if (ItemPointerEquals(tid, &wanted))
 		{
@@ -320,7 +318,7 @@ rtree_insert(void *context, const abacus_boxed_simplex *row)
 	return ABACUS_HOST_OK;
 }
 
-/* The host that keeps errors of the functions of table->rtree. */
+/* Sets the host that keeps errors of the functions of table->rtree. */
 void
 goose_table_own(GooseTable *table, Host *host)
 {

@@ -1,6 +1,6 @@
 /*
- * goose_table.h: a table of one row a simplex under a GiST index of boxes, as
- * the core's R-tree.
+ * goose_table.h: a table with one row for each simplex and a GiST index of boxes, as the core's
+ * R-tree.
  */
 #ifndef ABACUS_GOOSE_TABLE_H
 #define ABACUS_GOOSE_TABLE_H
@@ -32,7 +32,7 @@ typedef struct GooseTable
 	MemoryContext memory;
 	MemoryContext scratch;		/* of one insertion */
 	Host	   *host;			/* keeps the errors */
-	abacus_rtree rtree;			/* what the core is given; its context is this table */
+	abacus_rtree rtree;			/* what the core gets; its context is this table */
 } GooseTable;
 
 extern GooseTable *goose_table_create(text *name, int dimension);

@@ -1,5 +1,5 @@
 /*
- * guard.c: what happens to an error between the core's call and its return.
+ * guard.c: handles an error between the core's call and its return.
  */
 #include "postgres.h"
 
@@ -8,7 +8,7 @@
 #include "pg/base/settings.h"
 #include "pg/host/guard.h"
 
-/* Whether this call is the one that abacus.fail_host_call wants to fail. */
+/* Whether this is the call that abacus.fail_host_call wants to fail. */
 bool
 guard_failure_is_due(void)
 {

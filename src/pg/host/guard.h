@@ -6,8 +6,8 @@
  *     GUARD_END(host);
  *     return ABACUS_HOST_OK;
  *
- * An error between the two is kept, and the function returns
- * ABACUS_HOST_FAILED (host.c says why).
+ * An error between BEGIN and END is kept, and the function returns ABACUS_HOST_FAILED (host.c says
+ * why).
  */
 #ifndef ABACUS_GUARD_H
 #define ABACUS_GUARD_H

@@ -19,7 +19,7 @@
 
 /* ---- Life of a host ------------------------------------------------------ */
 
-/* Reset callback of the core's memory: the handle goes before its memory does. */
+/* Reset callback of the core's memory: the handle is closed before its memory is freed. */
 static void
 close_handle(void *arg)
 {
@@ -30,7 +30,7 @@ close_handle(void *arg)
 	host->handle = NULL;
 }
 
-/* Makes a host, in a memory context under `parent`. */
+/* Makes a host in a memory context under `parent`. */
 Host *
 host_create(MemoryContext parent)
 {
@@ -40,7 +40,7 @@ host_create(MemoryContext parent)
 
 	host->home = home;
 	host->core = AllocSetContextCreate(home, "Abacus core", ALLOCSET_DEFAULT_SIZES);
-	/* with room for an error in its first block, so that keeping one needs no malloc() */
+	/* room for an error in its first block, so that keeping one needs no malloc() */
 	host->errors = AllocSetContextCreate(home, "Abacus error", 8 * 1024, 8 * 1024, 8 * 1024);
 	callback->func = close_handle;
 	callback->arg = host;
@@ -54,7 +54,7 @@ host_create(MemoryContext parent)
 	return host;
 }
 
-/* The host closes the handle when it goes, or before the next one is owned. */
+/* The host closes the handle when it ends, or before it owns another one. */
 void
 host_own(Host *host, void *handle, void (*close) (void *handle))
 {
@@ -100,7 +100,7 @@ sqlstate_of(abacus_error_kind kind)
 	return ERRCODE_INTERNAL_ERROR;
 }
 
-/* Returns ABACUS_OK or ABACUS_END; raises everything else. */
+/* Returns ABACUS_OK or ABACUS_END; raises everything else as an error. */
 abacus_status
 host_leave(Host *host, abacus_status status)
 {

@@ -1,6 +1,5 @@
 /*
- * host.h: the database as the core sees it, and the way errors go between
- * the two.
+ * host.h: the database as the core sees it, and how errors pass between the two.
  *
  * A Host joins one abacus_host table and one core handle. Its parts have files
  * of their own: memory (host_memory.c), control (host_control.c: interrupts and
@@ -33,7 +32,7 @@ typedef struct HostPageFunctions
 						 abacus_page *page);
 	void		(*put) (void *owner, abacus_page_kind kind, abacus_page *page);
 	void		(*erase) (void *owner, abacus_page_kind kind, const abacus_page *page);
-	void		(*doubt) (void *owner); /* pages do not fit together: an error if our snapshot is why */
+	void		(*doubt) (void *owner); /* pages do not fit: an error if our snapshot is the cause */
 	void		(*release) (void *owner);	/* relations, scans, pins; more than once does no harm */
 } HostPageFunctions;
 
@@ -45,13 +44,13 @@ typedef struct HostPageKind
 
 typedef struct Host
 {
-	abacus_host table;			/* what the core is given; its context is this Host */
+	abacus_host table;			/* what the core gets; its context is this Host */
 	abacus_error failure;		/* the core's own error */
 	ErrorData  *error;			/* PostgreSQL's error, kept until the core has returned */
 	bool		busy;			/* in a core call, or left in one by an error */
 	HostPageKind pages[ABACUS_MAX_PAGE_KINDS];
 	Progress	progress;
-	struct StoredNames *names;	/* of attributes, where they are converted: header.c */
+	struct StoredNames *names;	/* of attributes, if they are converted: header.c */
 	MemoryContext home;			/* of this struct and the open tables */
 	MemoryContext core;			/* of the core's handle */
 	MemoryContext errors;		/* of `error` */
@@ -73,7 +72,7 @@ extern abacus_status host_leave(Host *host, abacus_status status);
 #define host_run(host, function, ...) \
 	host_check((host), function(__VA_ARGS__, &(host)->failure))
 
-/* The same around a call that says by itself where its error goes. */
+/* The same around a call that says itself where its error goes. */
 #define host_check(host, call) (host_enter(host), host_leave((host), (call)))
 
 #endif

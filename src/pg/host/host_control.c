@@ -1,6 +1,6 @@
 /*
- * host_control.c: what the core hears from the session, and what others hear of its
- * work: interrupts, progress, and how many threads may compute.
+ * host_control.c: what the core learns from the session, and what others see of its work:
+ * interrupts, progress, and how many threads may compute.
  *
  * The core's threads end before its functions return. A FATAL error ends the session in
  * the middle of one, so the threads are stopped before anything that they use goes away.
@@ -42,7 +42,9 @@ stop_threads(int code, Datum arg)
 	abacus_stop_threads();
 }
 
-/* Registered when it may be needed, since processes forget what the postmaster has registered. */
+/*
+ * Registered when it may be needed, since processes drop callbacks that the postmaster registered.
+ */
 static void
 stop_threads_at_exit(void)
 {

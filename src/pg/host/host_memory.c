@@ -1,9 +1,8 @@
 /*
  * host_memory.c: memory for the core, in a context of its own.
  *
- * The context's reset callback closes the core handle first (host.c). So a handle
- * goes away with the context it belongs to, on every way out, and
- * pg_backend_memory_contexts shows what it takes.
+ * The context's reset callback closes the core handle first (host.c). So a handle always ends with
+ * the context that it belongs to, and pg_backend_memory_contexts shows its size.
  */
 #include "postgres.h"
 
@@ -30,7 +29,7 @@ host_resize(void *context, void *block, size_t size)
 	if (block == NULL)
 		return MemoryContextAllocExtended(host->core, size,
 										  MCXT_ALLOC_HUGE | MCXT_ALLOC_NO_OOM);
-	/* large blocks grow by realloc(), which moves page tables and not bytes */
+	/* large blocks grow by realloc(), which moves page tables instead of bytes */
 	PG_TRY();
 	{
 		moved = repalloc_huge(block, size);

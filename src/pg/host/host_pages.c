@@ -7,7 +7,7 @@
 #include "pg/host/host_parts.h"
 #include "pg/port/port.h"
 
-/* What stands for the functions of a kind that nobody has registered. */
+/* The functions of a kind that is not registered. */
 
 pg_noreturn static void
 fail_unregistered(abacus_page_kind kind)
@@ -135,7 +135,7 @@ host_pages_init(Host *host)
 	host->table.erase = host_erase;
 }
 
-/* From now on the pages of this kind are found and stored by these functions. */
+/* Registers the functions that find and store the pages of a kind. */
 void
 host_register_pages(Host *host, abacus_page_kind kind, const HostPageFunctions *functions,
 					void *owner)
@@ -156,7 +156,7 @@ host_doubt_pages(Host *host)
 		host->pages[kind].functions->doubt(host->pages[kind].owner);
 }
 
-/* Gives up relations, scans and pins, none of which may outlive an SQL call. */
+/* Releases relations, scans and pins, none of which may outlive an SQL call. */
 void
 host_release(Host *host)
 {

@@ -1,8 +1,8 @@
 /*
  * host_parts.h: the parts of a host, each of which fills in its functions of the table.
  *
- * A part's functions run PostgreSQL under a guard (guard.h). None may be called by
- * a thread other than the session's.
+ * A part's functions run PostgreSQL under a guard (guard.h). Only the session's thread may call
+ * them.
  */
 #ifndef ABACUS_HOST_PARTS_H
 #define ABACUS_HOST_PARTS_H

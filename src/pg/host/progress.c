@@ -1,12 +1,11 @@
 /*
- * progress.c: live figures of a build, or of other long work, that other sessions can read.
+ * progress.c: live figures of a build, or of other long work, for other sessions to read.
  *
- * Every backend has progress slots in shared memory, but only for core commands. We
- * report as CREATE INDEX, which also builds something ordered out of a scan:
- * pg_stat_progress_create_index shows "building index" with tuples done and in all.
- * Figures that it has no name for go into slots that it does not use. A magic value in
- * the last of these tells the view abacus_progress that the row is ours
- * (sql/install/80-progress.sql, which knows the numbers below). An aborting transaction
+ * Every backend has progress slots in shared memory, but only for core commands. We report as
+ * CREATE INDEX, which also builds something ordered from a scan: pg_stat_progress_create_index
+ * shows "building index" with tuples done and in total. Figures without a name there go into slots
+ * that it does not use. A magic value in the last slot shows the view abacus_progress that the row
+ * is ours (sql/install/80-progress.sql, which uses the numbers below). An aborting transaction
  * clears the slots by itself.
  */
 #include "postgres.h"
@@ -29,9 +28,8 @@
 #define PROGRESS_MAGIC INT64CONST(0x616261637573)	/* "abacus" */
 
 /*
- * Does nothing where this is part of a command that reports progress of its own: COPY
- * of our rows, COPY into a table that a mesh follows, or a function of ours whose
- * source query this is.
+ * Does nothing within a command that reports its own progress: COPY of our rows, COPY into a table
+ * that a mesh follows, or a function of ours whose source query this is.
  */
 void
 progress_begin(Progress *state, Oid mesh)
@@ -51,14 +49,14 @@ progress_begin(Progress *state, Oid mesh)
 	state->active = true;
 }
 
-/* The figures shall be those of all batches together, of `total` points. */
+/* From now on, the figures are those of all batches together, of `total` points. */
 void
 progress_in_batches(Progress *state, uint64 total)
 {
 	state->total = total;
 }
 
-/* What the batch that has ended did. */
+/* Adds the figures of the batch that has ended. */
 void
 progress_batch_done(Progress *state, uint64 done, uint64 pages_read, uint64 pages_written)
 {
@@ -87,7 +85,7 @@ progress_report(Progress *state, const abacus_progress *progress)
 		return;
 	if (progress->phase != state->phase)
 	{
-		/* phases that return with each batch are one: the rate is that of all batches */
+		/* phases that return with each batch count as one: the rate is that of all batches */
 		if (state->total == 0 || state->phase == 0)
 			pgstat_progress_update_param(PROGRESS_ABACUS_PHASE_START, GetCurrentTimestamp());
 		state->phase = progress->phase;

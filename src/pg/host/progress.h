@@ -1,5 +1,5 @@
 /*
- * progress.h: live figures of what runs that other sessions can read.
+ * progress.h: live figures of running work, for other sessions to read.
  */
 #ifndef ABACUS_PROGRESS_H
 #define ABACUS_PROGRESS_H
@@ -11,7 +11,7 @@ typedef struct Progress
 	bool		active;
 	abacus_phase phase;
 	uint64		total;			/* of all batches; 0 = not in batches */
-	uint64		earlier_done;	/* what the batches before this one did */
+	uint64		earlier_done;	/* done in earlier batches */
 	uint64		earlier_read;
 	uint64		earlier_written;
 } Progress;

@@ -1,5 +1,5 @@
 /*
- * spool.c: temporary files, written from start to end, then read so.
+ * spool.c: temporary files, written and then read from start to end.
  *
  * BufFile brings temp_tablespaces, temp_file_limit, the figures in
  * pg_stat_database and removal at the end of the transaction.

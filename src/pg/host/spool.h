@@ -1,5 +1,5 @@
 /*
- * spool.h: temporary files, written from start to end, then read so.
+ * spool.h: temporary files, written and then read from start to end.
  */
 #ifndef ABACUS_SPOOL_H
 #define ABACUS_SPOOL_H

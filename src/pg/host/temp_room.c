@@ -1,7 +1,7 @@
 /*
  * temp_room.c: whether there is room for temporary files, before they are written.
  *
- * PostgreSQL finds out while it writes, which may be an hour and a full disk later.
+ * PostgreSQL would notice only while writing, perhaps an hour and a full disk later.
  */
 #include "postgres.h"
 
@@ -20,8 +20,7 @@
 #define MOST_TABLESPACES 64
 
 /*
- * Free bytes of the file system where a tablespace has its temporary files; negative if it does
- * not say.
+ * Free bytes of the file system where a tablespace has its temporary files; negative if unknown.
  */
 static double
 free_bytes(Oid tablespace, dev_t *device)
@@ -39,7 +38,7 @@ free_bytes(Oid tablespace, dev_t *device)
 	return (double) disk.f_bavail * (double) disk.f_frsize;
 }
 
-/* The same of all tablespaces that temporary files are spread over. */
+/* The same for all tablespaces over which temporary files are spread. */
 static double
 all_free_bytes(void)
 {
@@ -94,7 +93,7 @@ temp_room_has(double bytes)
 	return room < 0 || bytes <= room;
 }
 
-/* An error unless temporary files may grow by so many bytes. */
+/* An error unless temporary files may grow by this many bytes. */
 void
 temp_room_require(double bytes)
 {
@@ -109,7 +108,7 @@ temp_room_require(double bytes)
 			   "Ask for less, or for one part at a time, or name a tablespace with more room in temp_tablespaces.");
 }
 
-/* The same for so many rows of a tuplestore, each of at least so many bytes. */
+/* The same for rows of a tuplestore, each of at least this many bytes. */
 void
 temp_room_require_rows(double rows, int bytes_per_row)
 {

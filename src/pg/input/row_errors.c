@@ -1,5 +1,5 @@
 /*
- * row_errors.c: what the columns of source rows are called, and errors about them.
+ * row_errors.c: names of the columns of source rows, and errors about them.
  */
 #include "postgres.h"
 
@@ -12,7 +12,7 @@
 static const char *const coordinate_names[ABACUS_MAX_DIMENSION] = {"x", "y", "z"};
 static const char *const corner_names[ABACUS_MAX_DIMENSION + 1] = {"v0", "v1", "v2", "v3"};
 
-/* What a column is called in messages, and in tables by default. */
+/* The name of a column in messages, and in tables by default. */
 const char *
 row_packer_column(abacus_names names, int column)
 {
@@ -31,7 +31,7 @@ row_word(const RowPacker *packer, int column)
 		? column + packer->columns - packer->inputs : column;
 }
 
-/* What a column of ids is called, where there are several: of a simplex, or of one with a facet. */
+/* The name of a column of ids, if there are several: of a simplex, or of one with a facet. */
 static const char *
 simplex_column(const RowPacker *packer, int column)
 {
@@ -41,7 +41,7 @@ simplex_column(const RowPacker *packer, int column)
 	return corner < 0 ? "code" : corner <= dimension ? corner_names[corner] : "facet";
 }
 
-/* What a column of a row is called. */
+/* The name of a column of a row. */
 static const char *
 column_name(const RowPacker *packer, int column)
 {
@@ -73,8 +73,8 @@ expected_columns(const RowPacker *packer)
 }
 
 /*
- * The coordinate that a column is by its name, 0 for x, or -1; `sure`: names that people also give
- * to other things do not count.
+ * The coordinate that a column's name stands for, 0 for x, or -1; `sure`: names that also have
+ * other meanings do not count.
  */
 static int
 coordinate_of_name(const char *name, bool sure)
@@ -95,8 +95,8 @@ coordinate_of_name(const char *name, bool sure)
 }
 
 /*
- * Whether coordinates stand elsewhere than they are taken from: where one should be is a column of
- * another name, and one of its name at another place.
+ * Whether coordinates seem to be in the wrong columns: a coordinate's column has another name, and
+ * a column with its name is elsewhere.
  */
 static bool
 are_misplaced(const RowPacker *packer, TupleDesc desc)
@@ -133,14 +133,14 @@ taken_columns(const RowPacker *packer, TupleDesc desc)
 	return text.data;
 }
 
-/* What is said behind a detail: which column was taken for what, if that looks wrong. */
+/* A sentence after a detail: which column was taken for what, if that looks wrong. */
 static char *
 taken_sentence(const RowPacker *packer, TupleDesc desc)
 {
 	return are_misplaced(packer, desc) ? psprintf(" Here %s.", taken_columns(packer, desc)) : "";
 }
 
-/* Columns that are in another order than their names say are obeyed, but not without a word. */
+/* Columns are taken in their order even if their names say otherwise, but with a notice. */
 void
 row_tell_order(const RowPacker *packer, TupleDesc desc)
 {
@@ -152,7 +152,7 @@ row_tell_order(const RowPacker *packer, TupleDesc desc)
 						 packer->inputs > 1 + packer->coordinates ? ", then attributes" : "")));
 }
 
-/* What to do about a geometry where none can be read, or NULL. */
+/* A hint about a geometry that cannot be read here, or NULL. */
 static char *
 geometry_hint(const RowPacker *packer, const char *column, Oid type)
 {
@@ -202,7 +202,7 @@ row_refuse_type(const RowPacker *packer, int column, TupleDesc desc)
 			 errhint("%s", hint != NULL ? hint : packer->origin->type_hint)));
 }
 
-/* What may have been meant by rows of too few columns, or too many; or NULL. */
+/* A hint about rows with too few or too many columns, or NULL. */
 static char *
 count_hint(const RowPacker *packer, TupleDesc desc)
 {
@@ -236,7 +236,7 @@ row_refuse_count(const RowPacker *packer, TupleDesc desc)
 			 hint != NULL ? errhint("%s", hint) : 0));
 }
 
-/* A NULL, and what is not a number, has no place; the error says which point it was. */
+/* A NULL or NaN has no place; the error says which point it was. */
 void
 row_refuse_value(const RowPacker *packer, const uint64 *point, int column, bool isnull)
 {
@@ -256,7 +256,7 @@ row_refuse_value(const RowPacker *packer, const uint64 *point, int column, bool 
 			 errhint("%s", hint)));
 }
 
-/* A geometry of another system than the mesh, or than those before it. */
+/* A geometry has another system than the mesh, or than the geometries before it. */
 void
 row_refuse_srid(const RowPacker *packer, const char *what, int32 srid)
 {

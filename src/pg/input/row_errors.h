@@ -1,5 +1,5 @@
 /*
- * row_errors.h: what the columns of source rows are called, and errors about them.
+ * row_errors.h: names of the columns of source rows, and errors about them.
  */
 #ifndef ABACUS_ROW_ERRORS_H
 #define ABACUS_ROW_ERRORS_H
@@ -8,7 +8,7 @@
 
 #include "pg/input/row_packer.h"
 
-/* Where a row has the geometry that stands for its coordinates. */
+/* The column of a row that holds the geometry instead of coordinates. */
 #define GEOMETRY_COLUMN 1
 
 static inline bool

@@ -1,11 +1,11 @@
 /*
- * row_packer.c: rows from the executor into the core's records of points, or
- * of simplices.
+ * row_packer.c: packs rows from the executor into the core's records of points, or of simplices.
  *
  * A DestReceiver that deforms each slot in place. It packs id, coordinates and attributes, or the
- * ids of a simplex's vertices and its labels, into eight-byte words. Columns go by position, as in every function
- * that takes a source query. In place of the coordinates there may be a point of PostGIS. This is the
- * hot path of staging: it takes a few tens of nanoseconds a row, besides the scan itself.
+ * ids of a simplex's vertices and its labels, into eight-byte words. Columns go by position, as in
+ * every function with a source query. Instead of the coordinates there may be a point of PostGIS.
+ * This is the hot path of staging: it takes a few tens of nanoseconds a row, besides the scan
+ * itself.
  */
 #include "postgres.h"
 
@@ -51,7 +51,7 @@ static const RowOrigin queries_of_octants[] = {
 	[OCTANT_POINTS] = {QUERY_OF_OCTANTS("Give its coordinates"), "id", "An id", NULL, false, true, true}
 };
 
-/* Whether rows have a geometry in place of coordinates. */
+/* Whether rows have a geometry instead of coordinates. */
 bool
 row_packer_takes_geometry(TupleDesc desc)
 {
@@ -138,7 +138,7 @@ bits(double value)
 	return word;
 }
 
-/* A column of a type that cannot be read may only hold NULLs. */
+/* A column of an unreadable type may hold only NULLs. */
 static void
 check_nulls(const RowPacker *packer, const TupleTableSlot *slot)
 {
@@ -147,7 +147,7 @@ check_nulls(const RowPacker *packer, const TupleTableSlot *slot)
 			row_refuse_type(packer, i, slot->tts_tupleDescriptor);
 }
 
-/* The coordinates of a row with a geometry. */
+/* Packs the coordinates of a row with a geometry. */
 static void
 pack_geometry(RowPacker *packer, const TupleTableSlot *slot, uint64 *record)
 {
@@ -185,7 +185,7 @@ receive_row(TupleTableSlot *slot, DestReceiver *self)
 {
 	RowPacker  *packer = (RowPacker *) self;
 	uint64	   *point = packer->points + packer->count * packer->columns;
-	uint64	   *words = point + (packer->columns - packer->inputs); /* of columns behind a geometry */
+	uint64	   *words = point + (packer->columns - packer->inputs); /* of columns after a geometry */
 	int			coordinates_end = 1 + packer->coordinates;
 	int			first = packer->ids;
 	MemoryContext old = NULL;
@@ -235,8 +235,8 @@ shut_down(DestReceiver *self)
 }
 
 /*
- * A packer for records of so many columns: ids, coordinates, and then attributes; `more`: rows may
- * have others behind them; `takes_srid`: a mesh without SRID takes that of geometries.
+ * A packer for records of this many columns: ids, coordinates, then attributes. `more`: rows may
+ * have further columns; `takes_srid`: a mesh without SRID takes the geometries' SRID.
  */
 static RowPacker *
 create(TupleDesc desc, abacus_names names, const RowOrigin *origin, int ids,
@@ -282,8 +282,8 @@ create(TupleDesc desc, abacus_names names, const RowOrigin *origin, int ids,
 }
 
 /*
- * A packer for rows of a query that are points of the mesh, in the current memory context;
- * `takes_srid`: a mesh without SRID takes that of geometries.
+ * A packer for rows of a query that are points of the mesh, in the current memory context.
+ * `takes_srid`: a mesh without SRID takes the geometries' SRID.
  */
 RowPacker *
 row_packer_create(TupleDesc desc, abacus_names names, bool takes_srid, size_t batch)
@@ -292,7 +292,7 @@ row_packer_create(TupleDesc desc, abacus_names names, bool takes_srid, size_t ba
 				  names.facts->columns.attributes, false, takes_srid, batch);
 }
 
-/* The same for rows of a query that are places: id and coordinates, whatever else the rows have. */
+/* The same for rows of a query that are places: id and coordinates; other columns are ignored. */
 RowPacker *
 row_packer_create_places(TupleDesc desc, abacus_names names, size_t batch)
 {
@@ -307,7 +307,7 @@ row_packer_create_tracked(TupleDesc desc, abacus_names names, size_t batch)
 				  names.facts->columns.attributes, false, true, batch);
 }
 
-/* The same for rows of a query that are simplices: ids of their vertices, and their labels. */
+/* The same for rows of a query that are simplices: the ids of their vertices, and their labels. */
 RowPacker *
 row_packer_create_simplices(TupleDesc desc, abacus_names names, size_t batch)
 {
@@ -315,7 +315,7 @@ row_packer_create_simplices(TupleDesc desc, abacus_names names, size_t batch)
 				  names.facts->columns.labels, false, false, batch);
 }
 
-/* The same for rows of a query that label simplices, which have a code before the ids. */
+/* The same for rows of a query that label simplices, with a code before the ids. */
 RowPacker *
 row_packer_create_labels(TupleDesc desc, abacus_names names, size_t batch)
 {
@@ -323,7 +323,7 @@ row_packer_create_labels(TupleDesc desc, abacus_names names, size_t batch)
 				  names.facts->columns.labels, false, false, batch);
 }
 
-/* A packer for rows of so many ids and a marker. */
+/* A packer for rows with this many ids and a marker. */
 static RowPacker *
 create_marking(TupleDesc desc, abacus_names names, const RowOrigin *origin, int ids,
 			   size_t batch)
@@ -337,7 +337,7 @@ create_marking(TupleDesc desc, abacus_names names, const RowOrigin *origin, int 
 	return create(desc, (abacus_names) {facts, marker}, origin, ids, 0, 1, false, false, batch);
 }
 
-/* The same for rows of a query that mark facets, each by a simplex and the number of a corner. */
+/* The same for rows of a query that mark facets, each by a simplex and a corner's number. */
 RowPacker *
 row_packer_create_facets(TupleDesc desc, abacus_names names, size_t batch)
 {
@@ -351,7 +351,7 @@ row_packer_create_loaded_facets(TupleDesc desc, abacus_names names, size_t batch
 	return create_marking(desc, names, &query_of_simplices, names.facts->form.dimension, batch);
 }
 
-/* The same for rows of a query that are for an octree; `takes_srid` as above. */
+/* The same for rows of a query for an octree; `takes_srid` as above. */
 RowPacker *
 row_packer_create_octants(TupleDesc desc, abacus_names names, OctantRows rows,
 						  bool takes_srid, size_t batch)

@@ -1,6 +1,5 @@
 /*
- * row_packer.h: rows from the executor into the core's records of points, or of
- * simplices.
+ * row_packer.h: packs rows from the executor into the core's records of points, or of simplices.
  */
 #ifndef ABACUS_ROW_PACKER_H
 #define ABACUS_ROW_PACKER_H
@@ -18,50 +17,50 @@ typedef enum PackKind
 	PACK_INT4,
 	PACK_INT8,
 	PACK_NUMERIC,
-	PACK_NULL,					/* of no type that can be read: NULLs only */
+	PACK_NULL,					/* of an unreadable type: NULLs only */
 	PACK_GEOMETRY				/* all coordinates at once */
 } PackKind;
 
-/* Where rows come from, for messages. */
+/* The source of rows, for messages. */
 typedef struct RowOrigin
 {
 	const char *columns_of;
 	const char *rows_of;
-	const char *type_hint;		/* what to do about a type that cannot be read */
+	const char *type_hint;		/* what to do about an unreadable type */
 	const char *geometry_hint;	/* ... that is a geometry: begins a sentence, or NULL */
-	const char *value_hint;		/* ... and a row that cannot be placed */
+	const char *value_hint;		/* ... and about a row without a place */
 	bool		bare_nulls;		/* an attribute or label may be NULL without a cast */
 	const char *whole;			/* what the rows are for */
 	const char *id;				/* the first column */
-	const char *an_id;			/* what a value of it is */
-	const char *level;			/* the second column, if it is no coordinate */
+	const char *an_id;			/* a value of it */
+	const char *level;			/* the second column, if it is not a coordinate */
 	bool		by_number;		/* a row is identified by its number, not its id */
-	bool		takes_geometry; /* a geometry may stand behind the first column */
+	bool		takes_geometry; /* a geometry may follow the first column */
 	bool		makes_id;		/* rows without an id can be given one in the query */
 } RowOrigin;
 
-/* What rows of octants are. */
+/* Kinds of rows for octrees. */
 typedef enum OctantRows
 {
 	OCTANT_LEAVES,				/* code, level, attributes */
 	OCTANT_VALUES,				/* code, attributes */
 	OCTANT_PLACES,				/* level, coordinates */
-	OCTANT_POINTS				/* id, coordinates, whatever else there is */
+	OCTANT_POINTS				/* id, coordinates; other columns are ignored */
 } OctantRows;
 
 typedef struct RowPacker
 {
 	DestReceiver receiver;
 	const RowOrigin *origin;
-	abacus_names names;			/* of the columns, which may be others than the mesh has */
+	abacus_names names;			/* of the columns; the mesh may have others */
 	int			columns;		/* of a record: id, coordinates, attributes; or ids, labels */
 	int			ids;			/* columns of ids: 1, or of a simplex */
-	int			coordinates;	/* columns behind them that must be finite: coordinates, or a level */
+	int			coordinates;	/* columns after them that must be finite: coordinates, or a level */
 	int			inputs;			/* columns of a row: a geometry stands for all coordinates */
 	PackKind   *kinds;
-	GeometryType geometry;		/* of type InvalidOid: coordinates come one by one */
-	bool		takes_srid;		/* a mesh without SRID takes that of geometries */
-	int32		srid;			/* of geometries: of the mesh, or of the first; -1: none has come */
+	GeometryType geometry;		/* of type InvalidOid: coordinates have columns of their own */
+	bool		takes_srid;		/* a mesh without SRID takes the geometries' SRID */
+	int32		srid;			/* of geometries: of the mesh, or of the first; -1: none so far */
 	bool		converts;		/* needs memory for conversions */
 	bool		any_null;		/* of kind PACK_NULL */
 	uint64	   *points;			/* records: room for a batch */

@@ -42,7 +42,7 @@ locks_rows(Node *node, void *context)
 		query_tree_walker((Query *) node, locks_rows, context, 0);
 }
 
-/* Skips a comment, with those nested in it; returns the text unchanged where there is none. */
+/* Skips a comment, with nested ones; returns the text unchanged if there is none. */
 static const char *
 skip_comment(const char *text)
 {
@@ -62,7 +62,7 @@ skip_comment(const char *text)
 	return text;
 }
 
-/* Skips all that may come before the first word: white space, comments, parentheses. */
+/* Skips everything that may come before the first word: white space, comments, parentheses. */
 static const char *
 skip_to_word(const char *text)
 {
@@ -89,8 +89,8 @@ is_word_of_sql(const char *text)
 }
 
 /*
- * What begins with no word of SQL is no query. Most often it is a value that PostgreSQL has
- * cast to text unasked: a geometry has an implicit cast.
+ * A text that does not begin with a word of SQL is not a query. Most often it is a value that
+ * PostgreSQL has implicitly cast to text, such as a geometry.
  */
 static void
 check_is_query(const char *query)
@@ -110,7 +110,7 @@ check_is_query(const char *query)
 					 "extension abacus_postgis, a value of type geometry.")));
 }
 
-/* Parses the query; anything but one plain SELECT is refused. */
+/* Parses the query; rejects everything but one plain SELECT. */
 void
 source_prepare(Source *source, const char *query)
 {
@@ -148,7 +148,7 @@ source_columns(const Source *source)
 	return plan_source(source)->resultDesc->natts;
 }
 
-/* The column behind id and coordinates, in place of which there may be a geometry. */
+/* The first column after id and coordinates; a geometry may replace the coordinates. */
 int
 source_first_attribute(const Source *source, uint32 dimension)
 {
@@ -162,8 +162,8 @@ source_column_name(const Source *source, int column)
 }
 
 /*
- * Starts reading points for a mesh with these names, which takes the SRID of geometries if it has
- * none, and if the points come to stay.
+ * Starts reading points for a mesh with these names. If the points come to stay, a mesh without
+ * SRID takes the geometries' SRID.
  */
 void
 source_open(Source *source, abacus_names names, bool takes_srid)
@@ -172,7 +172,7 @@ source_open(Source *source, abacus_names names, bool takes_srid)
 	source->packer = row_packer_create(source->portal->tupDesc, names, takes_srid, ROWS_A_BATCH);
 }
 
-/* Starts reading places: points without attributes, whatever other columns there are. */
+/* Starts reading places: points without attributes; other columns are ignored. */
 void
 source_open_places(Source *source, abacus_names names)
 {
@@ -188,7 +188,7 @@ source_open_simplices(Source *source, abacus_names names)
 	source->packer = row_packer_create_simplices(source->portal->tupDesc, names, ROWS_A_BATCH);
 }
 
-/* Starts reading simplices of a mesh, by code and ids, with the labels that are named. */
+/* Starts reading simplices of a mesh, by code and ids, with the given labels. */
 void
 source_open_labels(Source *source, abacus_names names)
 {
@@ -196,7 +196,9 @@ source_open_labels(Source *source, abacus_names names)
 	source->packer = row_packer_create_labels(source->portal->tupDesc, names, ROWS_A_BATCH);
 }
 
-/* Starts reading facets of a mesh, each by a simplex and its corner opposite, with their markers. */
+/*
+ * Starts reading facets of a mesh, each by a simplex and the corner opposite, with their markers.
+ */
 void
 source_open_facets(Source *source, abacus_names names)
 {
@@ -221,14 +223,14 @@ source_open_octants(Source *source, abacus_names names, OctantRows rows, bool ta
 											   ROWS_A_BATCH);
 }
 
-/* Errors while reading say which query they come from, as SPI's do. */
+/* Errors while reading quote the query, as SPI's errors do. */
 static void
 describe_query(void *query)
 {
 	errcontext("SQL statement \"%s\"", (const char *) query);
 }
 
-/* Reads on; the records stay valid until the next call. 0 at the end. */
+/* Reads the next records, which stay valid until the next call; 0 at the end. */
 size_t
 source_fetch(Source *source, const uint64 **points)
 {

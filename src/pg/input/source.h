@@ -1,8 +1,7 @@
 /*
- * source.h: the user's query that yields points (id, x, y[, z][, attribute...]) or (id,
- * geometry[, attribute...]), or
- * simplices (v0, v1, v2[, v3][, label...]), or (code, v0, v1, v2[, v3], label...),
- * or their facets (code, v0, v1, v2[, v3], facet, marker).
+ * source.h: the user's query that yields points (id, x, y[, z][, attribute...]) or (id, geometry[,
+ * attribute...]), or simplices (v0, v1, v2[, v3][, label...]), or (code, v0, v1, v2[, v3],
+ * label...), or their facets (code, v0, v1, v2[, v3], facet, marker).
  */
 #ifndef ABACUS_SOURCE_H
 #define ABACUS_SOURCE_H

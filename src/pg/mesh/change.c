@@ -11,7 +11,7 @@
 #include "pg/mesh/change.h"
 #include "pg/mesh/notices.h"
 
-/* The handles go when the host does. */
+/* The handles are closed with the host. */
 static void
 close_handles(void *handle)
 {
@@ -25,7 +25,7 @@ close_handles(void *handle)
 	abacus_marking_close(change->marking);
 }
 
-/* What a change begins with, once its writer has. */
+/* Initializes a change whose writer has begun. */
 static Change *
 begun(Change *change)
 {
@@ -89,7 +89,7 @@ read_query(Change *change, Source *source, abacus_names names, bool takes_srid)
 	source_close(source);
 }
 
-/* Reads the points of a query that come into the mesh into a stage. */
+/* Reads the points of a query that will be added to the mesh into a stage. */
 void
 change_read(Change *change, Source *source)
 {
@@ -97,14 +97,14 @@ change_read(Change *change, Source *source)
 	change_take_srid(change, source->packer->srid);
 }
 
-/* The same of points to be found in it, with the columns that are named. */
+/* The same for points to be found in the mesh, with the given columns. */
 void
 change_read_gone(Change *change, Source *source, abacus_names names)
 {
 	read_query(change, source, names, false);
 }
 
-/* A mesh without SRID takes that of the geometries that have come; -1: of none. */
+/* A mesh without SRID takes the SRID of the geometries read; -1: there were none. */
 void
 change_take_srid(Change *change, int32 srid)
 {
@@ -123,8 +123,8 @@ change_swap_stages(Change *change)
 }
 
 /*
- * Opens the triangulation for changes, unless it is open. If the points to come are to
- * choose the domain, the header must have it by then.
+ * Opens the triangulation for changes, unless it is open. If the coming points choose the domain,
+ * the header must already have it.
  */
 void
 change_open_build(Change *change)
@@ -141,7 +141,10 @@ change_open_build(Change *change)
 		host_run(host, abacus_build_log, change->build, setting_query_sort_bytes());
 }
 
-/* What comes until it is settled is one change for labels and markers. Before the first one. */
+/*
+ * From here until it is settled, everything is one change for labels and markers. To be called
+ * before the first change.
+ */
 void
 change_hold(Change *change)
 {
@@ -172,8 +175,8 @@ change_insert(Change *change)
 }
 
 /*
- * Takes the points of the stage away; with `exactly`, only points with the same id and
- * attributes. Returns how many there were.
+ * Removes the points of the stage; with `exactly`, only points with the same id and attributes.
+ * Returns how many there were.
  */
 uint64
 change_delete(Change *change, bool exactly)
@@ -188,9 +191,9 @@ change_delete(Change *change, bool exactly)
 }
 
 /*
- * Gives points other values of some attributes, which are all that those of the stage have; with
- * `exactly`, to points with the attributes that come behind them. Returns how many there were; if
- * not all, *missing is one of the others.
+ * Gives points new values of some attributes. The stage's points have only these attributes; with
+ * `exactly`, the old values follow them, and only points that have those are changed. Returns how
+ * many there were; if some were not found, *missing is one of them.
  */
 uint64
 change_update(Change *change, const uint32 *attributes, size_t count, bool exactly,
@@ -206,8 +209,8 @@ change_update(Change *change, const uint32 *attributes, size_t count, bool exact
 }
 
 /*
- * Gives all points other attributes, as abacus_build_change_attributes() does. Nothing but the end
- * of the change may follow.
+ * Gives all points other attributes, as abacus_build_change_attributes() does. Only the end of the
+ * change may follow.
  */
 void
 change_attributes(Change *change, const uint32 *source, size_t count)
@@ -219,7 +222,7 @@ change_attributes(Change *change, const uint32 *source, size_t count)
 			 setting_sort_bytes(), change->writer.header);
 }
 
-/* Takes all points away. */
+/* Removes all points. */
 void
 change_clear(Change *change)
 {
@@ -239,7 +242,7 @@ change_report(Change *change, abacus_change_report report, void *context)
 	host_run(host, abacus_build_report, change->build, report, context);
 }
 
-/* Closes the mesh, which has not been changed. */
+/* Closes the mesh, which was not changed. */
 void
 change_abandon(Change *change)
 {
@@ -258,7 +261,7 @@ change_end(Change *change)
 	pfree(change);
 }
 
-/* Inserts the points of a prepared query; *header is the new one. Returns their number. */
+/* Inserts the points of a prepared query and returns their number; *header is the new header. */
 uint64
 change_insert_query(Oid mesh, Source *source, const char *command, abacus_header *header)
 {

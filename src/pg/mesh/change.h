@@ -19,7 +19,7 @@ typedef struct Change
 	abacus_stage *put_aside;	/* another one */
 	abacus_on_duplicate on_duplicate;
 	uint64		duplicates;		/* of the mesh before the change */
-	bool		may_replace;	/* the user can choose that */
+	bool		may_replace;	/* the user can choose 'replace' */
 	bool		inserts;
 	bool		holds;			/* labels and markers, until it is settled */
 	bool		returns;		/* which simplices it creates and removes */

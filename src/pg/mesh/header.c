@@ -6,9 +6,9 @@
  * transaction that made it is rolled back. A session's cache is good exactly as long as
  * the header that it sees has the stamp it was filled under.
  *
- * The names of many attributes are in rows of their own, under (-1, 1) and so on. They are changed
- * with the header alone, so a reader of the header sees the names that belong to it. Those that stay as they
- * are are not written.
+ * The names of many attributes are in rows of their own, under (-1, 1) and so on. They change only
+ * with the header, so a reader of the header sees the names that belong to it. Unchanged rows are
+ * not written.
  */
 #include "postgres.h"
 
@@ -37,7 +37,7 @@ name_key(uint32 row, int64 *key)
 	key[1] = header_key[1] + 1 + row;
 }
 
-/* Writes the rows of names that have changed, and removes those that are too many. */
+/* Writes the rows of names that have changed, and removes surplus ones. */
 static void
 store_names(Host *host, const abacus_header *header)
 {
@@ -67,7 +67,7 @@ store_names(Host *host, const abacus_header *header)
 	pages->name_rows = rows;
 }
 
-/* Writes the header in place of that at *tid, or, if this is not valid, that of a new mesh. */
+/* Writes the header over the one at *tid, or, if *tid is not valid, as the header of a new mesh. */
 static void
 store(Host *host, const abacus_header *header, ItemPointer tid)
 {
@@ -195,7 +195,7 @@ header_decode(Host *host, const StoredPage *row, abacus_header *header)
 	host_check(host, header_try_decode(host, row, header));
 }
 
-/* An error if the pages are of another type than the caller takes. */
+/* An error if the pages are not of the type that the caller expects. */
 void
 header_require_type(Host *host, const abacus_form *form)
 {
@@ -215,7 +215,7 @@ header_require_type(Host *host, const abacus_form *form)
 			 errhint("Make an octree with abacus_octree_create().")));
 }
 
-/* Finds and decodes the header, which must be there; its place goes to *tid unless NULL. */
+/* Finds and decodes the header, which must exist; *tid gets its place, unless tid is NULL. */
 void
 header_read(Host *host, abacus_header *header, ItemPointer tid)
 {
@@ -237,9 +237,9 @@ header_read(Host *host, abacus_header *header, ItemPointer tid)
 }
 
 /*
- * Rewrites the header at *tid, which the caller has locked: the mesh is the same, but
- * its rows lie elsewhere. Sessions may keep what they have cached of the mesh. A writer
- * with an older snapshot finds the header changed, and cannot go on.
+ * Rewrites the header at *tid, which the caller has locked: the mesh is the same, but its rows lie
+ * elsewhere. Sessions may keep their cached data of the mesh. A writer with an older snapshot finds
+ * the header changed, and cannot continue.
  */
 void
 header_rewrite(Host *host, const abacus_header *header, ItemPointer tid)
@@ -255,7 +255,7 @@ header_update(Host *host, abacus_header *header, ItemPointer tid)
 	header_rewrite(host, header, tid);
 }
 
-/* An error, with what the user may do instead, if the mesh has another dimension. */
+/* An error if the mesh has another dimension, with a hint for the user. */
 void
 header_require_dimension(const abacus_form *form, uint32 dimension, const char *hint)
 {
@@ -268,7 +268,7 @@ header_require_dimension(const abacus_form *form, uint32 dimension, const char *
 						 dimension == 3 ? " To make one in space, use dimension => 3." : "")));
 }
 
-/* An SRID that is given for a mesh: an error if the mesh has another one. */
+/* Checks an SRID given for a mesh: an error if the mesh has another one. */
 void
 header_require_srid(const abacus_form *form, int32 srid)
 {
@@ -328,7 +328,7 @@ list_names(abacus_names names, uint32 first, uint32 count)
 	return list.data;
 }
 
-/* Number of the attribute with this name, which must be there. */
+/* Number of the attribute with this name, which must exist. */
 int
 header_find_attribute(abacus_names names, const char *name)
 {
@@ -344,7 +344,7 @@ header_find_attribute(abacus_names names, const char *name)
 	return number;
 }
 
-/* Number of the label with this name, which must be there. */
+/* Number of the label with this name, which must exist. */
 int
 header_find_label(abacus_names names, const char *name)
 {
@@ -361,7 +361,7 @@ header_find_label(abacus_names names, const char *name)
 	return number;
 }
 
-/* An error if there are none. */
+/* An error if the mesh has no attributes. */
 void
 header_require_attributes(const abacus_facts *facts)
 {
@@ -374,7 +374,7 @@ header_require_attributes(const abacus_facts *facts)
 						   "abacus_triangulate().")));
 }
 
-/* Number of the one attribute, where no name is given. */
+/* Number of the only attribute, for calls without a name. */
 int
 header_only_attribute(abacus_names names)
 {

@@ -7,7 +7,7 @@
 #include "abacus/mesh_header.h"
 #include "pg/mesh/mesh_pages.h"
 
-/* Of its row. */
+/* The key of its row. */
 extern const int64 header_key[PAGE_TABLE_KEYS];
 
 extern void header_insert(Host *host, abacus_header *header);

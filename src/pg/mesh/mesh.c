@@ -1,5 +1,5 @@
 /*
- * mesh.c: what a mesh is in the database.
+ * mesh.c: the representation of a mesh in the database.
  *
  * A mesh is an ordinary table of the type abacus_simplex_page together with one of the
  * type abacus_vertex_page. No catalogue of ours lists them: the row type in pg_class
@@ -35,7 +35,7 @@
 #include "pg/mesh/mesh_access.h"
 #include "pg/port/port.h"
 
-/* Whether `type` is this extension's row type of that name; remembers the last yes. */
+/* Whether `type` is this extension's row type with that name; remembers the last yes. */
 static bool
 is_row_type(Oid type, const char *name, Oid *known)
 {
@@ -57,7 +57,7 @@ is_row_type(Oid type, const char *name, Oid *known)
 	return true;
 }
 
-/* The owner of any table; InvalidOid if it has gone. */
+/* The owner of any table; InvalidOid if it no longer exists. */
 Oid
 mesh_table_owner(Oid relid)
 {
@@ -134,12 +134,11 @@ mesh_table_open(Oid relid, MeshAccess access)
 }
 
 /*
- * Keeps everybody else from changing the mesh and its definition, over several
- * transactions. Only readers go on; VACUUM stays away. The caller unlocks; an error
- * unlocks by itself.
+ * Keeps all others from changing the mesh and its definition, over several transactions. Only
+ * readers continue; VACUUM stays away. The caller unlocks; an error unlocks by itself.
  *
- * The first lock, only for the checks, is ACCESS SHARE, which is in nobody's way. Two
- * sessions that came with a writer's lock would wait for each other.
+ * The first lock, only for the checks, is ACCESS SHARE, which blocks no one. Two sessions that
+ * began with a writer's lock would wait for each other.
  */
 LockRelId
 mesh_lock_for_session(Oid relid)
@@ -213,7 +212,7 @@ mesh_find_vertex_table(Oid mesh)
 	return OidIsValid(relid) ? relid : find_named_vertex_table(mesh);
 }
 
-/* The mesh of which this is the simplex table or the vertex table; InvalidOid if of none. */
+/* The mesh whose simplex table or vertex table this is; InvalidOid if none. */
 Oid
 mesh_of_table(Oid relid)
 {
@@ -248,10 +247,10 @@ try_lock_for_session(Oid relid, LOCKMODE mode, LockRelId *lock)
 }
 
 /*
- * Does what mesh_lock_for_session() does if nobody has the mesh locked for more than reading;
- * else returns false. The lock is EXCLUSIVE, so that nobody holds a row lock for which a writer
- * would wait. The vertex table is locked as a writer does, or, if its rows will be written,
- * likewise. The caller unlocks; an error unlocks by itself.
+ * Does the same as mesh_lock_for_session() if no one has the mesh locked for more than reading;
+ * otherwise returns false. The lock is EXCLUSIVE, so that no one holds a row lock for which a
+ * writer would wait. The vertex table is locked as a writer does, or in EXCLUSIVE mode too if its
+ * rows will be written. The caller unlocks; an error unlocks by itself.
  */
 bool
 mesh_try_lock_for_session(Oid relid, bool vertices, MeshLocks *locks)
@@ -282,7 +281,9 @@ mesh_unlock_for_session(MeshLocks *locks)
 	UnlockRelationIdForSession(&locks->simplices, ExclusiveLock);
 }
 
-/* The table of the mesh's vertex pages, locked and checked; writers bind it when it is not. */
+/*
+ * The table of the mesh's vertex pages, locked and checked; a writer binds it if it is not bound.
+ */
 Oid
 mesh_vertex_table(Relation mesh, MeshAccess access)
 {
@@ -316,7 +317,7 @@ mesh_vertex_table(Relation mesh, MeshAccess access)
 	return relid;
 }
 
-/* From now on the object goes where the mesh goes. */
+/* Makes DROP of the mesh drop the object as well. */
 void
 mesh_bind_object(Oid class, Oid object, Oid mesh)
 {
@@ -348,8 +349,8 @@ mesh_bind_trigger(Oid mesh, Oid trigger)
 }
 
 /*
- * Registers a function of a room above that binds things of its own to meshes; it is
- * called for restored ones.
+ * Registers a function of a higher layer that binds its own objects to meshes; it is called for
+ * restored meshes.
  */
 void
 mesh_tell_of_restored(void (*tell) (Relation mesh))

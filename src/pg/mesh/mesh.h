@@ -1,6 +1,6 @@
 /*
- * mesh.h: what a mesh is in the database: two typed tables, found, locked and
- * checked for privileges.
+ * mesh.h: the representation of a mesh in the database: two typed tables, found, locked and checked
+ * for privileges.
  */
 #ifndef ABACUS_MESH_H
 #define ABACUS_MESH_H
@@ -12,12 +12,12 @@
 #define VERTEX_PAGE_TYPE "abacus_vertex_page"
 #define VERTEX_TABLE_SUFFIX "_vertices"
 
-/* What a caller is going to do, and so the lock and the privileges it needs. */
+/* What a caller intends to do, which decides the lock and the privileges it needs. */
 typedef enum MeshAccess
 {
 	MESH_READ,
 	MESH_WRITE,
-	MESH_MOVE					/* the same rows elsewhere, for somebody who may VACUUM */
+	MESH_MOVE					/* move the same rows, for a user who may VACUUM */
 } MeshAccess;
 
 /* Locks of the session on both tables. */

@@ -1,9 +1,9 @@
 /*
- * mesh_access.c: who may use a table of a mesh, and where it can be used.
+ * mesh_access.c: who may use a table of a mesh, and whether it can be used.
  *
- * The store reads and writes pages without planner and executor. So the checks that
- * these would make are made here: privileges, row-level security, temporary tables of
- * other sessions, unlogged tables on a standby, publications.
+ * The store reads and writes pages without planner and executor. So it has to check here what these
+ * would check: privileges, row-level security, temporary tables of other sessions, unlogged tables
+ * on a standby, publications.
  */
 #include "postgres.h"
 
@@ -21,9 +21,8 @@
 #include "pg/store/page_index.h"
 
 /*
- * The detail of an error about a missing privilege: which mesh this is the vertex table
- * of, and which user lacks the privilege. That may be another user than the caller,
- * where the mesh follows a table.
+ * The detail of an error about a missing privilege: which mesh this vertex table belongs to, and
+ * which user lacks the privilege. If the mesh follows a table, that user may not be the caller.
  */
 static const char *
 describe_denied(Relation mesh)
@@ -40,7 +39,7 @@ describe_denied(Relation mesh)
 	return detail.data;
 }
 
-/* What the executor would refuse; `mesh` is the one whose vertex table this is, or NULL. */
+/* Raises the executor's errors; `mesh` is the one whose vertex table this is, or NULL. */
 static void
 check_privileges(Relation rel, MeshAccess access, Relation mesh)
 {
@@ -80,9 +79,9 @@ check_publications(Relation rel)
 }
 
 /*
- * The row type of a table tells which columns it has, but not where they lie: a column
- * that was dropped before ALTER TABLE ... OF keeps its place. Rows are read and written
- * without names, so all columns must be the type's.
+ * The row type of a table says which columns it has, but not where they are: a column that was
+ * dropped before ALTER TABLE ... OF keeps its place. Rows are read and written without names, so
+ * the columns must be exactly those of the type.
  */
 static void
 check_columns(Relation rel)
@@ -108,13 +107,13 @@ check_columns(Relation rel)
 }
 
 /*
- * Raises an error unless the user may do that to a table of a mesh, and it is possible.
+ * Raises an error if the user may not use a table of a mesh in this way, or if it is impossible.
  * `mesh` is the one whose vertex table this is, or NULL.
  */
 void
 mesh_check_access(Relation rel, MeshAccess access, Relation mesh)
 {
-	/* moving rows shows nothing of them: as with VACUUM FULL, the owner's rights are enough */
+	/* moving rows does not show them: as with VACUUM FULL, the owner's rights are enough */
 	if (access != MESH_MOVE)
 		check_privileges(rel, access, mesh);
 	if (rel->rd_rel->relam != HEAP_TABLE_AM_OID)

@@ -1,5 +1,5 @@
 /*
- * mesh_access.h: who may use a table of a mesh, and where it can be used.
+ * mesh_access.h: who may use a table of a mesh, and whether it can be used.
  */
 #ifndef ABACUS_MESH_ACCESS_H
 #define ABACUS_MESH_ACCESS_H

@@ -1,5 +1,5 @@
 /*
- * mesh_cache.c: what a session keeps of the meshes it reads.
+ * mesh_cache.c: what a session keeps of the meshes that it reads.
  *
  * A core handle for locating and walking holds simplices in memory, so it is worth
  * keeping between calls and between statements. It is valid for one (relfilenode,
@@ -12,8 +12,8 @@
  * the exception: it takes changes and locks back without any trace in the snapshot. So
  * aborts and ends of transactions make entries forget. The callbacks touch memory only.
  *
- * An entry is busy while the core runs on it. If an abort or the next call finds it
- * busy, an error has left it so, and it is dropped: a failed handle may only be closed.
+ * An entry is busy while the core runs on it. If an abort or the next call finds it busy, an error
+ * has interrupted it. Then it is dropped: a failed handle may only be closed.
  */
 #include "postgres.h"
 
@@ -30,7 +30,7 @@
 
 #define MESHES_KEPT 4
 
-/* What decides which changes of others, and of our own commands, a snapshot sees. */
+/* Decides which changes of others, and of our own commands, a snapshot sees. */
 typedef struct SnapshotMark
 {
 	bool		set;
@@ -51,10 +51,10 @@ typedef struct Entry
 	Oid			relid;
 	RelFileLocator node;
 	uint64		stamp;
-	size_t		bytes;			/* cache size it was opened with */
+	size_t		bytes;			/* cache size when it was opened */
 	uint64		last_use;
 	Oid			user;			/* whose privileges were checked under `valid` */
-	TimestampTz statement;		/* ... which began then: they may be revoked between two */
+	TimestampTz statement;		/* its start: they may be revoked between two */
 	SnapshotMark valid;
 } Entry;
 
@@ -134,7 +134,7 @@ find(Oid relid)
 	return NULL;
 }
 
-/* A free entry, if need be the one used longest ago. */
+/* A free entry; if there is none, the one used longest ago is dropped. */
 static Entry *
 take_entry(Oid relid)
 {
@@ -198,7 +198,7 @@ validate(Oid relid, Entry *entry, uint32 type)
 	abacus_header header;
 	Host	   *host;
 
-	/* a lock that the transaction holds already does not bring the news of privileges */
+	/* taking a lock that the transaction already holds does not process changes of privileges */
 	AcceptInvalidationMessages();
 	rel = mesh_table_open(relid, MESH_READ);
 	/* the data of a mesh lies in one file; TRUNCATE and rewrites give it another */
@@ -216,7 +216,7 @@ validate(Oid relid, Entry *entry, uint32 type)
 		entry->cached.host = mesh_host_create(TopMemoryContext, relid, MESH_READ);
 	}
 	host = entry->cached.host;
-	host->busy = true;			/* until all went well */
+	host->busy = true;			/* until everything has succeeded */
 	mesh_pages(host)->type = ANY_TYPE;
 	header_read(host, &header, NULL);
 	mesh_pages_expect_moves(mesh_pages(host));
@@ -225,7 +225,7 @@ validate(Oid relid, Entry *entry, uint32 type)
 	header_require_type(host, &header.facts.form);
 	if (host->handle == NULL || entry->stamp != header.stamp)
 	{
-		/* the old handle must not be found under the new stamp, whatever happens */
+		/* whatever happens, the old handle must not be found under the new stamp */
 		host_own(host, NULL, NULL);
 		entry->cached.mesh = NULL;
 		entry->cached.octree = NULL;
@@ -270,14 +270,14 @@ mesh_cache_get_octree(Oid relid)
 	return get(relid, ABACUS_OCTREE);
 }
 
-/* A mesh or an octree. */
+/* The same for a mesh or an octree. */
 CachedMesh *
 mesh_cache_get_any(Oid relid)
 {
 	return get(relid, ANY_TYPE);
 }
 
-/* What the session has of a mesh now, or NULL. */
+/* The session's present entry for a mesh, or NULL. */
 const CachedMesh *
 mesh_cache_peek(Oid relid)
 {

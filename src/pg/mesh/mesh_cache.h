@@ -11,8 +11,8 @@
 typedef struct CachedMesh
 {
 	Host	   *host;
-	abacus_mesh *mesh;			/* NULL while being opened, and of an octree */
-	abacus_octree *octree;		/* NULL while being opened, and of a mesh */
+	abacus_mesh *mesh;			/* NULL while being opened, and for an octree */
+	abacus_octree *octree;		/* NULL while being opened, and for a mesh */
 	uint32		dimension;
 	abacus_header header;		/* as the mesh was when it was opened */
 } CachedMesh;

@@ -1,12 +1,12 @@
 /*
  * mesh_pages.c: the two tables of a mesh as the core's page operations.
  *
- * Codes, parts and sequence numbers are unsigned below 2^63 in the core and
- * bigint in the tables. Each table holds two kinds of pages, of which one has its
- * codes shifted to the negative numbers. In the vertex table these are repeated
- * points, below all sequence numbers of staged points. In the simplex table they
- * are attributes that are apart, below the header and all simplices. A page's
- * location is its TID: block * 2^16 + offset, never 0, for offsets start at 1.
+ * Codes, parts and sequence numbers are unsigned numbers below 2^63 in the core and bigint in the
+ * tables. Each table holds two kinds of pages, and one of them has its codes shifted to the
+ * negative numbers. In the vertex table these are repeated points, below all sequence numbers of
+ * staged points. In the simplex table they are attributes that are apart, below the header and all
+ * simplices. A page's location is its TID: block * 2^16 + offset, never 0, since offsets start at
+ * 1.
  */
 #include "postgres.h"
 
@@ -99,7 +99,7 @@ mesh_pages_find(void *owner, abacus_page_kind kind, abacus_key key, abacus_page 
 	return true;
 }
 
-/* Others may have moved pages since. */
+/* Tells both tables that others may have moved pages. */
 void
 mesh_pages_expect_moves(MeshPages *pages)
 {
@@ -126,7 +126,7 @@ static bool
 mesh_pages_next(void *owner, abacus_page_kind kind, const abacus_key *key, abacus_page *page)
 {
 	MeshPages  *pages = owner;
-	int64		columns[PAGE_TABLE_KEYS] = {-1, PG_INT64_MAX};	/* behind negative codes */
+	int64		columns[PAGE_TABLE_KEYS] = {-1, PG_INT64_MAX};	/* after the negative codes */
 	bool		first = key == NULL && least_column(kind) < 0;
 	StoredPage	stored;
 
@@ -168,7 +168,7 @@ mesh_pages_erase(void *owner, abacus_page_kind kind, const abacus_page *page)
 	page_table_delete(table_of(pages, kind), &tid);
 }
 
-/* Called when pages do not fit together: an error if that is since our snapshot is too old. */
+/* Called when pages do not fit together: an error if the cause is that our snapshot is too old. */
 static void
 mesh_pages_doubt(void *owner)
 {
@@ -210,7 +210,7 @@ mesh_host_create(MemoryContext parent, Oid mesh, MeshAccess access)
 	MeshPages  *pages = MemoryContextAllocZero(host->home, sizeof(MeshPages));
 
 	pages->mesh = mesh;
-	pages->type = ABACUS_MESH;	/* unless the caller takes another one */
+	pages->type = ABACUS_MESH;	/* unless the caller chooses another type */
 	pages->access = access;
 	page_table_init(&pages->simplices, mesh, access != MESH_READ, host->home);
 	page_table_init(&pages->vertices, InvalidOid, access != MESH_READ, host->home);

@@ -10,10 +10,10 @@
 #include "pg/mesh/mesh.h"
 #include "pg/store/page_table.h"
 
-/* Of pages that may be of any type: those that are moved, or looked at. */
+/* For pages of any type, when they are moved or inspected. */
 #define ANY_TYPE UINT32_MAX
 
-/* What is of a type, for messages. */
+/* The word for an object of this type, for messages. */
 static inline const char *
 type_name(uint32 type)
 {
@@ -23,9 +23,9 @@ type_name(uint32 type)
 typedef struct MeshPages
 {
 	Oid			mesh;
-	uint32		type;			/* an abacus_type: what the header must be of, or ANY_TYPE */
+	uint32		type;			/* the abacus_type that the header must have, or ANY_TYPE */
 	MeshAccess	access;
-	uint32		name_rows;		/* rows of names that there are beside the header: header.c */
+	uint32		name_rows;		/* rows of names beside the header: header.c */
 	PageTable	simplices;
 	PageTable	vertices;		/* its OID is looked up when first needed */
 } MeshPages;
@@ -36,7 +36,7 @@ extern Oid	mesh_pages_vertex_table(MeshPages *pages);
 extern bool mesh_pages_any(MeshPages *pages, abacus_page_kind kind);
 extern void mesh_pages_expect_moves(MeshPages *pages);
 
-/* Those of a host that mesh_host_create() has made. */
+/* The pages of a host from mesh_host_create(). */
 static inline MeshPages *
 mesh_pages(const Host *host)
 {

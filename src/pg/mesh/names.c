@@ -1,15 +1,14 @@
 /*
  * names.c: names of attributes and labels in the encoding in which they are stored.
  *
- * A dump converts texts to the encoding of another database, but not the bytes of
- * pages. So names are stored in UTF-8, whatever encoding the database has. Only in a
- * database of SQL_ASCII, where nobody knows what bytes mean, they are stored as they
- * are.
+ * A dump converts texts to the encoding of another database, but not the bytes of pages. So names
+ * are stored in UTF-8, whatever encoding the database has. Only in a database of SQL_ASCII, where
+ * the meaning of bytes is unknown, they are stored unchanged.
  *
- * A mesh may come from a database with other characters. Characters that this one lacks
- * are escaped, as in a string U&'...'. A name that becomes too long is cut and ends
- * with the number of the attribute. Such a name does not say what is stored. So the
- * stored name is kept, and is stored again unless the attribute gets another name.
+ * A mesh may come from a database with other characters. Characters that this one lacks are
+ * escaped, as in a string U&'...'. A name that becomes too long is cut and ends with the number of
+ * the attribute. Such a name does not determine the stored one. So the stored name is kept, and is
+ * stored again unless the attribute gets another name.
  */
 #include "postgres.h"
 
@@ -20,7 +19,7 @@
 #include "abacus/build.h"
 #include "pg/mesh/names.h"
 
-/* The first name whose bytes are no text; -1 if all are. */
+/* The first name whose bytes are not valid text; -1 if all are. */
 int
 names_find_invalid(const abacus_header *header)
 {
@@ -32,7 +31,7 @@ names_find_invalid(const abacus_header *header)
 	return -1;
 }
 
-/* Whether the database has them in another encoding than they are stored in. */
+/* Whether the database has another encoding than the stored names. */
 bool
 names_are_converted(void)
 {
@@ -66,14 +65,14 @@ append_escaped(StringInfo name, Oid conversion, const char *character, int lengt
 		appendStringInfo(name, code < 0x10000 ? "\\%04X" : "\\+%06X", code);
 }
 
-/* What the database calls the attribute of that number whose name is stored so. */
+/* Converts a stored name of the attribute with this number to the database's encoding. */
 static void
 to_database(const char *stored, uint32 number, char *name)
 {
 	Oid			conversion = FindDefaultConversionProc(PG_UTF8, GetDatabaseEncoding());
 	char	   *end = psprintf("~%u", number);
 	int			room = ABACUS_NAME_BYTES - 1 - (int) strlen(end);
-	int			fits = -1;		/* of what is converted one by one */
+	int			fits = -1;		/* length of whole characters, when converting one by one */
 	StringInfoData converted;
 
 	initStringInfo(&converted);
@@ -94,7 +93,7 @@ to_database(const char *stored, uint32 number, char *name)
 	pfree(converted.data);
 }
 
-/* Names that are valid as stored become those that the database has for them. */
+/* Converts stored names, which are valid, to those in the database. */
 void
 names_to_database(abacus_header *header, StoredNames *stored)
 {
@@ -107,8 +106,8 @@ names_to_database(abacus_header *header, StoredNames *stored)
 }
 
 /*
- * The attributes are others than when the names were read: the i-th is the one that had the number
- * source[i], or one that has no name yet (ABACUS_NO_ATTRIBUTE). The labels are the same.
+ * The attributes have changed since the names were read: the i-th is the former one at source[i],
+ * or a new one without a name (ABACUS_NO_ATTRIBUTE). The labels are the same.
  */
 void
 names_move(abacus_header *header, StoredNames *stored, const uint32 *source)
@@ -139,7 +138,7 @@ to_storage(char *name)
 		strlcpy(name, converted, ABACUS_NAME_BYTES);
 }
 
-/* And back: those that were stored, if any, and are the same, as they were. */
+/* Converts back; a name that is the same as before gets its former stored form. */
 void
 names_to_storage(abacus_header *header, const StoredNames *stored)
 {

@@ -15,7 +15,7 @@
 #include "pg/mesh/new_mesh.h"
 #include "pg/mesh/new_table.h"
 
-/* CREATE TABLE of one of the extension's row types, through the usual utility path. */
+/* Runs CREATE TABLE for one of the extension's row types, through the usual utility path. */
 static void
 create_table(Oid namespace, const char *name, Oid type_namespace, const char *type,
 			 const char *primary_key)
@@ -30,7 +30,7 @@ create_table(Oid namespace, const char *name, Oid type_namespace, const char *ty
 					 name);
 }
 
-/* Says on a table what it is, and on its columns what its row type says of them. */
+/* Copies comments: the table's describes it, the columns' come from its row type. */
 static void
 describe_table(Oid table, const char *what, Oid type_namespace, const char *type)
 {
@@ -43,9 +43,8 @@ describe_table(Oid table, const char *what, Oid type_namespace, const char *type
 }
 
 /*
- * Makes the two tables of a mesh, or of an octree, and writes its header. CREATE TABLE runs as
- * the caller and checks what it always checks: privileges, names taken.
- * `command` names the function for messages.
+ * Makes the two tables of a mesh, or of an octree, and writes its header. CREATE TABLE runs as the
+ * caller with its usual checks: privileges, names taken. `command` names the function for messages.
  */
 Oid
 new_mesh(text *name, Oid extension_namespace, abacus_header *header, const char *command)

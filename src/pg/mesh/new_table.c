@@ -1,7 +1,6 @@
 /*
- * new_table.c: guards a table against what others may do while a CREATE TABLE of ours
- * makes it. They may drop its schema before, drop the table after, by an event trigger,
- * or make another one of that name.
+ * new_table.c: protects a table while a CREATE TABLE of ours makes it. Others may drop its schema
+ * before, drop the table after (by an event trigger), or make another one with that name.
  */
 #include "postgres.h"
 
@@ -14,7 +13,7 @@
 #include "pg/mesh/mesh.h"
 #include "pg/mesh/new_table.h"
 
-/* A name as in SQL, maybe with that of a schema. */
+/* A name as in SQL, perhaps with a schema. */
 RangeVar *
 new_table_name(text *name)
 {
@@ -33,14 +32,14 @@ new_table_name(text *name)
 	return makeRangeVarFromNameList(textToQualifiedNameList(name));
 }
 
-/* The schema of the new table, locked, so that it is still there when a statement names it. */
+/* The schema of the new table, locked, so that it still exists when a statement names it. */
 Oid
 new_table_schema(RangeVar *name)
 {
 	return RangeVarGetAndCheckCreationNamespace(name, NoLock, NULL);
 }
 
-/* Checks that the name is free. CREATE TABLE would too, but it would not say what to do. */
+/* Checks that the name is free. CREATE TABLE would too, but without a hint. */
 void
 new_table_check_name(Oid schema, const char *name)
 {
@@ -59,7 +58,7 @@ new_table_check_name(Oid schema, const char *name)
 			 : errhint("Choose another name for the mesh, or drop the relation.")));
 }
 
-/* Whether the error is about two rows of one name in the catalogue. */
+/* Whether an error is about two rows with the same name in a catalogue. */
 static bool
 is_name_taken(const ErrorData *error)
 {
@@ -68,7 +67,7 @@ is_name_taken(const ErrorData *error)
 		 strcmp(error->constraint_name, "pg_class_relname_nsp_index") == 0);
 }
 
-/* CREATE TABLE. A session that has just committed may have taken the name meanwhile. */
+/* Runs CREATE TABLE. A session that has just committed may have taken the name meanwhile. */
 void
 new_table_create(const char *command, const char *name)
 {
@@ -96,7 +95,7 @@ new_table_create(const char *command, const char *name)
 	PG_END_TRY();
 }
 
-/* The table that has just been made there. */
+/* The table that was just made. */
 Oid
 new_table_id(Oid schema, const char *name)
 {

@@ -1,4 +1,4 @@
-/* new_table.h: where a table is about to be made, and which one it has become. */
+/* new_table.h: the place for a new table, and the table once it is made. */
 #ifndef ABACUS_NEW_TABLE_H
 #define ABACUS_NEW_TABLE_H
 

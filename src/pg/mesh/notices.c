@@ -1,14 +1,14 @@
 /*
- * notices.c: notices of what is no error, but unexpected: points that equal a vertex,
- * and points that span no simplex.
+ * notices.c: notices of unexpected things that are not errors: points that equal a vertex, and
+ * points that span no simplex.
  */
 #include "postgres.h"
 
 #include "pg/mesh/notices.h"
 
 /*
- * Points that equal a vertex; `before`: as many as there were before the change. `hint`: the caller
- * can choose what becomes of them.
+ * Reports points that equal a vertex; `before`: how many there were before the change. `hint`: the
+ * caller can choose what happens to them.
  */
 void
 notice_duplicates(const Writer *writer, uint64 before, bool hint)
@@ -30,7 +30,7 @@ notice_duplicates(const Writer *writer, uint64 before, bool hint)
 							"the last point.") : 0));
 }
 
-/* Points that wait since they span no simplex. */
+/* Reports points that wait since they span no simplex. */
 void
 notice_waiting(const Writer *writer)
 {

@@ -1,5 +1,5 @@
 /*
- * notices.h: notices of what is no error, but unexpected.
+ * notices.h: notices of unexpected things that are not errors.
  */
 #ifndef ABACUS_NOTICES_H
 #define ABACUS_NOTICES_H

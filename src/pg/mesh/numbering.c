@@ -1,16 +1,16 @@
 /*
- * numbering.c: numbers of attributes that never come again.
+ * numbering.c: permanent numbers of attributes.
  *
- * Attributes have positions, and the header has their names. Both change: what comes after an
- * attribute that is dropped moves up, and a name may be given to another one. So what is kept
- * outside of the mesh, as in the definition of a foreign table, names an attribute by a number. An
- * attribute has the same number as long as it is there, and no other one gets it.
+ * Attributes have positions, and the header has their names. Both change: when an attribute is
+ * dropped, those after it move up, and its name may be given to another one. So definitions outside
+ * the mesh, as that of a foreign table, refer to an attribute by a number. An attribute keeps its
+ * number as long as it exists, and no other one ever gets it.
  *
- * As long as none has been dropped the numbers are the positions. After that a row of the simplex
- * table, (-1, 1000), behind all rows of names, has how many attributes have been dropped, and how
- * many of these came before each that is left. New attributes come last, so these figures never
- * decrease. The row changes only with the header, which is locked then: a snapshot that has the
- * header has the row that belongs to it.
+ * As long as no attribute has been dropped, the numbers are the positions. After that, a row of the
+ * simplex table, (-1, 1000), after all rows of names, says how many attributes have been dropped,
+ * and for each attribute left, how many of these came before it. New attributes come last, so these
+ * figures never decrease. The row changes only with the header, which is locked then: a snapshot
+ * that sees a header sees the row that belongs to it.
  */
 #include "postgres.h"
 
@@ -21,7 +21,9 @@
 
 const int64 numbering_key[PAGE_TABLE_KEYS] = {-1, 1000};
 
-/* "ABAN", the number of attributes, those dropped, and a word for each; little-endian. */
+/*
+ * "ABAN", the number of attributes, the number of dropped ones, and a word for each; little-endian.
+ */
 #define NUMBERING_MAGIC 0x4E414241
 #define NUMBERING_HEAD 3
 #define WORD_BYTES 4
@@ -41,7 +43,7 @@ put_word(unsigned char *bytes, uint32 at, uint32 word)
 		bytes[at * WORD_BYTES + i] = (unsigned char) (word >> 8 * i);
 }
 
-/* Whether a row is one of a mesh with so many attributes; *numbering is what it says. */
+/* Whether a row is valid for a mesh with this many attributes; *numbering gets its content. */
 static bool
 decode(const StoredPage *row, Numbering *numbering)
 {
@@ -95,7 +97,7 @@ numbering_number(const Numbering *numbering, uint32 position)
 	return position + numbering->before[position];
 }
 
-/* Where the attribute of this number is; -1 if it is there no more. */
+/* The position of the attribute with this number; -1 if it no longer exists. */
 int
 numbering_position(const Numbering *numbering, uint32 number)
 {
@@ -138,8 +140,9 @@ store(Host *host, const Numbering *numbering)
 }
 
 /*
- * The attributes become others than those that the header has: as the i-th of `count` that at the
- * position source[i], in their order, or a new one (ABACUS_NO_ATTRIBUTE). Before the header changes.
+ * The attributes will change from those in the header: the i-th of `count` is the one at the
+ * position source[i], in ascending order, or a new one (ABACUS_NO_ATTRIBUTE). To be called before
+ * the header changes.
  */
 void
 numbering_change(Host *host, const abacus_columns *columns, const uint32 *source, uint32 count)

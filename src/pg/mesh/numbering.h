@@ -1,5 +1,5 @@
 /*
- * numbering.h: numbers of attributes that never come again.
+ * numbering.h: permanent numbers of attributes.
  */
 #ifndef ABACUS_NUMBERING_H
 #define ABACUS_NUMBERING_H
@@ -12,11 +12,11 @@
 typedef struct Numbering
 {
 	uint32		count;			/* of attributes */
-	uint32		dropped;		/* attributes that the mesh has had and has no more */
-	uint32		before[ABACUS_MAX_ATTRIBUTES];	/* how many of these came before each */
+	uint32		dropped;		/* attributes of the mesh that were dropped */
+	uint32		before[ABACUS_MAX_ATTRIBUTES];	/* how many of the dropped ones came before each */
 } Numbering;
 
-/* The row that it is in, if an attribute has been dropped. */
+/* The row with the numbering, if an attribute has been dropped. */
 extern const int64 numbering_key[PAGE_TABLE_KEYS];
 
 extern bool numbering_try_read(Host *host, const abacus_columns *columns, Numbering *numbering);

@@ -9,9 +9,8 @@
 #include "pg/mesh/reader.h"
 
 /*
- * Opens a mesh for reading under the active snapshot. The reader lives in
- * `memory`, whose end closes it; the caller releases the host before it
- * returns to SQL.
+ * Opens a mesh for reading under the active snapshot. The reader lives in `memory`, and ends with
+ * it; the caller releases the host before it returns to SQL.
  */
 Reader *
 reader_open(Oid mesh, MemoryContext memory)
@@ -19,7 +18,7 @@ reader_open(Oid mesh, MemoryContext memory)
 	return reader_open_of(mesh, ABACUS_MESH, memory);
 }
 
-/* The same of another type, or of any. */
+/* The same for another type, or for any. */
 Reader *
 reader_open_of(Oid mesh, uint32 type, MemoryContext memory)
 {

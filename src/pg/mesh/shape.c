@@ -1,5 +1,5 @@
 /*
- * shape.c: what a new mesh is to be: dimension, attributes, labels, domain.
+ * shape.c: the shape of a new mesh: dimension, attributes, labels, domain.
  */
 #include "postgres.h"
 
@@ -31,7 +31,7 @@ shape_check_name(const char *name)
 				 errhint("Use a name of 1 to %d bytes.", ABACUS_NAME_BYTES - 1)));
 }
 
-/* An error if there is no room for one more attribute. */
+/* An error if one more attribute would be too many. */
 void
 shape_check_room(const abacus_facts *facts)
 {
@@ -62,7 +62,7 @@ shape_attribute(abacus_header *header, const char *name)
 	strlcpy(header->names[header->facts.columns.attributes++], name, ABACUS_NAME_BYTES);
 }
 
-/* Adds one label of simplices; behind all attributes. */
+/* Adds one label of simplices, after all attributes. */
 void
 shape_label(abacus_header *header, const char *name)
 {
@@ -126,7 +126,7 @@ shape_numbers(ArrayType *numbers, const char *what, int *count)
 						  TYPALIGN_DOUBLE, count);
 }
 
-/* Reads a float8[] with as many elements as the mesh has dimensions. */
+/* Reads a float8[] with one element for each dimension of the mesh. */
 void
 shape_point(const abacus_form *form, ArrayType *point, const char *what, double *values)
 {

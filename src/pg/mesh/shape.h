@@ -1,5 +1,5 @@
 /*
- * shape.h: what a new mesh is to be, by the arguments of an SQL function.
+ * shape.h: the shape of a new mesh, from the arguments of an SQL function.
  */
 #ifndef ABACUS_SHAPE_H
 #define ABACUS_SHAPE_H

@@ -1,8 +1,8 @@
 /*
  * shown.c: the foreign tables that show a mesh.
  *
- * A constraint of each names the mesh and depends on it, also after a restore. The table itself
- * depends on the mesh, too, so that it goes with it. A dump does not carry that.
+ * Each has a constraint that names the mesh and depends on it, even after a restore. The table
+ * itself depends on the mesh, too, so that it is dropped with it. A dump does not carry that.
  */
 #include "postgres.h"
 
@@ -24,7 +24,7 @@
 #include "pg/mesh/mesh.h"
 #include "pg/mesh/shown.h"
 
-/* The foreign table of ours that has this constraint; InvalidOid if there is none. */
+/* The foreign table of ours with this constraint; InvalidOid if there is none. */
 static Oid
 table_of_constraint(Oid constraint)
 {
@@ -72,7 +72,7 @@ shown_tables(Oid mesh)
 	return tables;
 }
 
-/* From now on the table goes where the mesh goes. */
+/* Makes DROP of the mesh drop the table as well. */
 void
 shown_bind(Oid mesh, Oid table)
 {

@@ -60,9 +60,8 @@ lock_header(Host *host, ItemPointer tid)
 }
 
 /*
- * Opens both tables, the second with all checks. While they are open PostgreSQL refuses
- * to alter or drop them in this session. So the checks stay true, whatever the query
- * that gives the points does.
+ * Opens both tables, the second with all checks. While they are open, PostgreSQL does not let this
+ * session alter or drop them. So the checks remain true, whatever the source query does.
  */
 static void
 open_tables(MeshPages *pages)
@@ -88,7 +87,7 @@ open_and_lock(Writer *writer, bool in_trigger)
 	open_tables(mesh_pages(host));
 	table_close(table, NoLock);
 
-	/* before there is a snapshot of ours, which would be in nobody's way */
+	/* before we have a snapshot of our own, which would not matter */
 	own_sight_take(&sight, in_trigger);
 	for (;;)
 	{
@@ -144,7 +143,7 @@ writer_begin(Writer *writer, Oid mesh, MeshAccess access, const char *command)
 	begin(writer, mesh, access, ABACUS_MESH, command, false);
 }
 
-/* The same of another type, or of any, for changing. */
+/* The same for another type, or for any. */
 void
 writer_begin_of(Writer *writer, Oid mesh, uint32 type, const char *command)
 {
@@ -159,8 +158,8 @@ writer_begin_moves(Writer *writer, Oid mesh, const char *command)
 }
 
 /*
- * Opens a mesh for changing in a function that is called as a trigger, where more is
- * known about snapshots.
+ * Opens a mesh for changing in a function that is called as a trigger. There, more is known about
+ * snapshots.
  */
 void
 writer_begin_in_trigger(Writer *writer, Oid mesh, const char *command)
@@ -169,8 +168,8 @@ writer_begin_in_trigger(Writer *writer, Oid mesh, const char *command)
 }
 
 /*
- * Gives up the tables and the snapshot, which must be done before a transaction can
- * end. Either nothing has changed, or the header has been written.
+ * Releases the tables and the snapshot, which must happen before a transaction can end. Either
+ * nothing has changed, or the header has been written.
  */
 void
 writer_release(Writer *writer)
@@ -179,7 +178,7 @@ writer_release(Writer *writer)
 	PopActiveSnapshot();
 }
 
-/* Writes the header: the change is complete, and may be committed. */
+/* Writes the header: the change is complete and may be committed. */
 void
 writer_store(Writer *writer)
 {
@@ -188,14 +187,14 @@ writer_store(Writer *writer)
 }
 
 /*
- * After writer_store() or writer_release(), and a commit: opens the mesh for the next
- * change. What the core holds of it is still true if the caller has kept others from
- * changing it meanwhile, by a lock of the session (mesh.h).
+ * After writer_store() or writer_release(), and a commit: opens the mesh for the next change. The
+ * core's data about the mesh are still true if a lock of the session (mesh.h) has kept others from
+ * changing it meanwhile.
  */
 void
 writer_continue(Writer *writer)
 {
-	mesh_pages(writer->host)->vertices.relid = InvalidOid;	/* may have gone: look again */
+	mesh_pages(writer->host)->vertices.relid = InvalidOid;	/* may be gone: look again */
 	open_and_lock(writer, false);
 }
 

@@ -1,17 +1,17 @@
 /*
  * extend.c: many heap pages added to a table at once.
  *
- * From 16 on PostgreSQL offers that. It reserves room in the file and hands out buffers of
+ * Since version 16 PostgreSQL offers that. It reserves room in the file and returns buffers of
  * zeros.
  *
  * PostgreSQL 15 adds a heap page by writing zeros to the end of the file, which takes 15
  * microseconds, and writes the page itself later. So the same is done here: the file system
- * reserves room for many pages. A full disk is noticed at once and not when buffers are
- * written, and nothing is written twice. Where a file system cannot do that, none is added.
+ * reserves room for many pages. A full disk is noticed at once and not when buffers are written,
+ * and nothing is written twice. If a file system cannot do that, no pages are added.
  *
- * Buffers get the pages, as zeros, before the file has them. So nothing has to be read. Nobody
- * can ask for a page beyond the end of the file, so nobody can have written them. Once the file
- * has grown, they are pages as a crash may also leave them: scans skip them, an insertion
+ * Buffers get the pages, as zeros, before the file has them. So nothing has to be read. No one can
+ * ask for a page beyond the end of the file, so no one can have written them. Once the file has
+ * grown, the new pages are like those that a crash may leave: scans skip them, an insertion
  * initializes them, and VACUUM enters them into the free space map.
  */
 #include "postgres.h"
@@ -31,8 +31,8 @@
 #if PG_VERSION_NUM >= 160000
 
 /*
- * Adds as many pages, or fewer where few buffers are free. Returns how many, the number of the
- * first in *first, and calls taken() with the buffer of each.
+ * Adds this many pages, or fewer if few buffers are free. Returns how many; *first gets the number
+ * of the first. Calls taken() with the buffer of each.
  */
 int
 port_extend(Relation heap, int pages, void (*taken) (Buffer buffer), BlockNumber *first)
@@ -53,9 +53,9 @@ port_extend(Relation heap, int pages, void (*taken) (Buffer buffer), BlockNumber
 #else
 
 /*
- * Room in the file for pages from `first` on, all of one segment; false if there is none.
- * posix_fallocate() will not do: where the file system lacks the call, it makes two small
- * writes a page, which takes longer than PostgreSQL does.
+ * Reserves room in the file for pages from `first` on, all of one segment; false if it fails.
+ * posix_fallocate() is no alternative: if the file system lacks the call, it makes two small writes
+ * for each page, which takes longer than PostgreSQL does.
  */
 static bool
 reserve(Relation heap, BlockNumber first, int pages)
@@ -83,9 +83,9 @@ reserve(Relation heap, BlockNumber first, int pages)
 }
 
 /*
- * Buffers of zeros for pages that the file does not have. They may exist, if somebody
- * failed to add them before. False if one is not zeros, which the next session that adds
- * it will report.
+ * Takes buffers of zeros for pages that the file does not have. They may exist if an earlier
+ * attempt to add them failed. False if a buffer is not zero; the next session that adds the page
+ * will report it.
  */
 static bool
 take_buffers(Relation heap, BlockNumber first, int pages, void (*taken) (Buffer buffer))
@@ -104,9 +104,9 @@ take_buffers(Relation heap, BlockNumber first, int pages, void (*taken) (Buffer 
 }
 
 /*
- * Adds as many pages, or as many as the segment of the file has room for. Returns how many, the
- * number of the first in *first, and calls taken() with the buffer of each. 0: the next page
- * makes a segment, so it comes alone. Negative: none can be added in this way.
+ * Adds this many pages, or as many as the segment of the file has room for. Returns how many;
+ * *first gets the number of the first. Calls taken() with the buffer of each. 0: the next page
+ * begins a segment, so it must be added alone. Negative: no pages can be added in this way.
  */
 int
 port_extend(Relation heap, int pages, void (*taken) (Buffer buffer), BlockNumber *first)

@@ -7,7 +7,7 @@
 #include "storage/buf.h"
 #include "utils/rel.h"
 
-/* No more pages at once. */
+/* The most pages added at once. */
 #define EXTEND_MOST_PAGES 32
 
 extern int	port_extend(Relation heap, int pages, void (*taken) (Buffer buffer), BlockNumber *first);

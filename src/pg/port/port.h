@@ -1,9 +1,10 @@
 /*
- * port.h: what differs between major versions of PostgreSQL. Only this room asks for the version.
+ * port.h: the differences between major versions of PostgreSQL. Only this folder checks the
+ * version.
  *
- * All other files use the names and signatures of the newest version; here they are mapped to
- * those of older ones. Where a name would say too little, it begins with port_. A version that is
- * not known does not compile: a wrong guess would damage data.
+ * All other files use the names and signatures of the newest version; here they are mapped to those
+ * of older ones. If a name would say too little, it begins with port_. An unknown version does not
+ * compile: a wrong guess would damage data.
  */
 #ifndef ABACUS_PORT_H
 #define ABACUS_PORT_H
@@ -65,7 +66,7 @@ typedef RelFileNode RelFileLocator;
 	RelationSetNewRelfilenode(relation, persistence)
 #endif
 
-/* As by REINDEX TABLE, without a statement (17 takes it). */
+/* As REINDEX TABLE does, without a statement (17 takes it). */
 static inline bool
 port_reindex_relation(Oid relid, int flags, const ReindexParams *params)
 {
@@ -97,7 +98,7 @@ object_aclcheck(Oid class, Oid object, Oid role, AclMode mode)
 }
 #endif
 
-/* Whether a role may vacuum a table: its owner, or who has the privilege MAINTAIN (from 17 on). */
+/* Whether a role may vacuum a table: as its owner, or with the privilege MAINTAIN (from 17 on). */
 static inline bool
 port_may_maintain(Oid table, Oid role)
 {
@@ -143,7 +144,7 @@ port_table_beginscan(Relation rel, Snapshot snapshot)
 #endif
 }
 
-/* A scan of the rows with places from `first` to `last`. */
+/* A scan of the rows with locations from `first` to `last`. */
 static inline TableScanDesc
 port_table_beginscan_tidrange(Relation rel, Snapshot snapshot, ItemPointer first, ItemPointer last)
 {
@@ -154,7 +155,7 @@ port_table_beginscan_tidrange(Relation rel, Snapshot snapshot, ItemPointer first
 #endif
 }
 
-/* The primary key's index, if it is checked at once (18 also gives one that is deferrable). */
+/* The primary key's index, if it is checked immediately (18 also returns a deferrable one). */
 static inline Oid
 port_primary_key_index(Relation heap)
 {
@@ -165,7 +166,7 @@ port_primary_key_index(Relation heap)
 #endif
 }
 
-/* 16 tells which indexes are to be updated: ours are, by ourselves. */
+/* 16 reports which indexes need updates: we update ours ourselves. */
 static inline void
 port_heap_update(Relation heap, ItemPointer tid, HeapTuple tuple)
 {
@@ -178,7 +179,7 @@ port_heap_update(Relation heap, ItemPointer tid, HeapTuple tuple)
 #endif
 }
 
-/* Clones of the trigger at partitions are changed, too (16 asks). */
+/* Changes the trigger's clones at partitions, too (16 asks). */
 static inline void
 port_set_trigger_firing(Relation rel, const char *name, char fires, LOCKMODE lock)
 {
@@ -189,7 +190,7 @@ port_set_trigger_firing(Relation rel, const char *name, char fires, LOCKMODE loc
 #endif
 }
 
-/* 19 hands a pin of the visibility map's page, which is to be released. */
+/* 19 returns a pin of the visibility map's page, which must be released. */
 static inline void
 port_prune_heap_page(Relation heap, Buffer buffer)
 {
@@ -206,7 +207,7 @@ port_prune_heap_page(Relation heap, Buffer buffer)
 
 /* ---- VACUUM and buffers -------------------------------------------------------- */
 
-/* Whether VACUUM cuts the table's file (18: a setting of the server where the table has none). */
+/* Whether VACUUM cuts the table's file (18: a server setting, unless the table has its own). */
 static inline bool
 port_vacuum_truncates(Relation rel)
 {
@@ -250,9 +251,9 @@ port_local_transaction(void)
 }
 
 /*
- * The first of the active snapshots, or NULL if it is not known. From 18 on it is known only
- * while the portal without a name runs. That is a client's statement, below which there is none;
- * portals of cursors and of functions have names.
+ * The first active snapshot, or NULL if it is unknown. From 18 on it is known only while the portal
+ * without a name runs. That is a client's statement, which has none below it; portals of cursors
+ * and of functions have names.
  */
 static inline Snapshot
 port_first_active_snapshot(void)
@@ -268,7 +269,7 @@ port_first_active_snapshot(void)
 #endif
 }
 
-/* Whether rows that a snapshot sees may go for the age of the snapshot (until 16). */
+/* Whether rows that a snapshot sees may be removed because the snapshot is old (until 16). */
 static inline bool
 port_snapshots_may_be_too_old(void)
 {
@@ -279,7 +280,7 @@ port_snapshots_may_be_too_old(void)
 #endif
 }
 
-/* An error if that has happened to what the snapshot would see on the page. */
+/* An error if that has happened to rows on the page that the snapshot should see. */
 static inline void
 port_refuse_old_snapshot(Snapshot snapshot, Relation rel, Page page)
 {
@@ -290,7 +291,7 @@ port_refuse_old_snapshot(Snapshot snapshot, Relation rel, Page page)
 
 /* ---- Foreign scans ------------------------------------------------------------- */
 
-/* Whether rows with a key of an order come with the least first (18 compares, others have strategies). */
+/* Whether the least keys come first in this order (18 compares, other versions have strategies). */
 static inline bool
 port_pathkey_ascends(const PathKey *key)
 {
@@ -301,7 +302,7 @@ port_pathkey_ascends(const PathKey *key)
 #endif
 }
 
-/* A path that scans a foreign table (17 asks for clauses, 18 for disabled nodes). */
+/* A path that scans a foreign table (17 takes clauses, 18 disabled nodes). */
 static inline ForeignPath *
 port_create_foreignscan_path(PlannerInfo *root, RelOptInfo *rel, double rows, Cost startup,
 							 Cost total, List *order, Relids outer, List *more)
@@ -317,7 +318,7 @@ port_create_foreignscan_path(PlannerInfo *root, RelOptInfo *rel, double rows, Co
 #endif
 }
 
-/* With whose rights a foreign scan reads (16 keeps it in the plan). */
+/* The user with whose rights a foreign scan reads (16 keeps it in the plan). */
 static inline Oid
 port_foreign_scan_user(ForeignScanState *state)
 {

@@ -1,9 +1,9 @@
 /*
- * pruning.c: a heap page is pruned, and the write-ahead log told, as heap_page_prune() does it.
+ * pruning.c: prunes a heap page and writes the log record, as heap_page_prune() does.
  *
- * From 17 on PostgreSQL has one record for all that happens to line pointers, and a function
- * that writes it. Before, the record is formed here. No snapshot of a standby can be in the way
- * of rows that only their own transaction ever saw, so the record names no transaction.
+ * From 17 on PostgreSQL has one record for all changes of line pointers, and a function that writes
+ * it. For older versions the record is formed here. Only their own transaction ever saw these rows,
+ * so no snapshot of a standby can be in the way, and the record names no transaction.
  */
 #include "postgres.h"
 

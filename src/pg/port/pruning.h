@@ -1,5 +1,5 @@
 /*
- * pruning.h: a heap page is pruned by somebody else than PostgreSQL.
+ * pruning.h: pruning of a heap page by an extension.
  */
 #ifndef ABACUS_PRUNING_H
 #define ABACUS_PRUNING_H
@@ -8,7 +8,7 @@
 #include "storage/buf.h"
 #include "utils/rel.h"
 
-/* What is to be done to the line pointers of a heap page. */
+/* The changes to the line pointers of a heap page. */
 typedef struct Pruning
 {
 	int			redirected_count;

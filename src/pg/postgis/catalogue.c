@@ -1,9 +1,9 @@
 /*
  * catalogue.c: PostGIS as it is found in the catalogues.
  *
- * PostGIS may be missing, or be installed later, in any version and any schema. So nothing of it is
- * linked. Its type, and functions and those behind operators, are known by their names and by
- * belonging to the extension.
+ * PostGIS may be missing, or be installed later, in any version and any schema. So this module does
+ * not link to it. It finds the type, the functions, and those behind operators, by their names and
+ * by their membership in the extension.
  */
 #include "postgres.h"
 
@@ -79,7 +79,7 @@ geometry_is_type(Oid type)
 	return strcmp(geometry_type_name(base), GEOMETRY) == 0 && postgis_owns(TypeRelationId, base);
 }
 
-/* The name of a function of PostGIS in SQL, where the type geometry of these values is. */
+/* The SQL name of a PostGIS function, in the schema of these values' type geometry. */
 char *
 geometry_function(Oid type, const char *name)
 {
@@ -94,7 +94,7 @@ geometry_function(Oid type, const char *name)
 	return qualified;
 }
 
-/* Looks the functions of a type up, one that geometry_is_type() knows; they stay in `memory`. */
+/* Looks up the functions of a type that geometry_is_type() accepts; they stay in `memory`. */
 void
 geometry_open(GeometryType *type, Oid oid, MemoryContext memory)
 {
@@ -110,8 +110,7 @@ geometry_open(GeometryType *type, Oid oid, MemoryContext memory)
 }
 
 /*
- * The same for functions that are called for every row. Within a statement the functions that were
- * found stay good.
+ * The same for functions that are called for every row. The result stays valid within a statement.
  */
 const GeometryType *
 geometry_type(Oid oid)

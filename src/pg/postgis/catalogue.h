@@ -6,7 +6,7 @@
 
 #include "fmgr.h"
 
-/* How values of the type geometry become bytes and are made of them. */
+/* How values of the type geometry are converted to bytes and back. */
 typedef struct GeometryType
 {
 	Oid			type;

@@ -1,13 +1,13 @@
 /*
  * ewkb.h: geometries as bytes.
  *
- * Values of PostGIS go through the type's own send and receive functions. Their bytes are EWKB, which
- * PostGIS documents, while what it stores is its own affair. A geometry is
+ * Values of PostGIS go through the type's own send and receive functions. Their bytes are EWKB,
+ * which PostGIS documents, while its stored format is internal. A geometry is
  *
  *   byte order (0: big-endian, 1: little-endian), kind and flags, SRID if a flag says so, contents
  *
- * The contents of a point are its coordinates, those of a line their number and themselves, those of
- * a polygon the number of its rings and of each what a line has, and those of other kinds the number
+ * A point contains its coordinates. A line contains the number of its points and their coordinates,
+ * and a polygon the number of its rings and each ring like a line. Other kinds contain the number
  * of geometries and these, each with a head of its own. A triangle is written as a polygon. A point
  * whose coordinates are all NaN is empty.
  */
@@ -24,8 +24,8 @@ enum
 	GEOMETRY_MULTILINE,
 	GEOMETRY_MULTIPOLYGON,
 	GEOMETRY_COLLECTION,
-	GEOMETRY_CIRCULAR_LINE,		/* the first of those with curves */
-	GEOMETRY_SURFACE = 14,		/* the last */
+	GEOMETRY_CIRCULAR_LINE,		/* the first with curves */
+	GEOMETRY_SURFACE = 14,		/* the last with curves */
 	GEOMETRY_POLYHEDRAL,
 	GEOMETRY_TIN,
 	GEOMETRY_TRIANGLE
@@ -44,7 +44,7 @@ enum
 #define EWKB_ORDER 1
 #endif
 
-/* What a geometry, or one inside another, begins with. */
+/* The head of a geometry, or of one inside another. */
 typedef struct GeometryHead
 {
 	uint32		kind;

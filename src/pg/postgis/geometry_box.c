@@ -37,7 +37,7 @@ add_places(Extent *extent, GeometryBytes *bytes, const GeometryHead *head, uint3
 	}
 }
 
-/* A geometry with all that is in it; its SRID. */
+/* Reads a geometry with everything inside it; returns its SRID. */
 static int32
 add_geometry(Extent *extent, GeometryBytes *bytes)
 {

@@ -1,5 +1,5 @@
 /*
- * geometry_box.h: where a geometry of PostGIS is.
+ * geometry_box.h: the extent of a geometry of PostGIS.
  */
 #ifndef ABACUS_POSTGIS_GEOMETRY_BOX_H
 #define ABACUS_POSTGIS_GEOMETRY_BOX_H
@@ -8,7 +8,7 @@
 
 typedef enum GeometryBox
 {
-	GEOMETRY_ANYWHERE,			/* it is not known: an arc, or no number */
+	GEOMETRY_ANYWHERE,			/* unknown: an arc, or a NaN */
 	GEOMETRY_NOWHERE,			/* it is empty */
 	GEOMETRY_IN_BOX
 } GeometryBox;

@@ -1,12 +1,12 @@
 /*
- * geometry_errors.c: what is wrong with a geometry, and what to do about it.
+ * geometry_errors.c: errors about geometries, with hints.
  */
 #include "postgres.h"
 
 #include "pg/postgis/ewkb.h"
 #include "pg/postgis/geometry_errors.h"
 
-/* What PostGIS calls it. */
+/* The name of a kind in PostGIS. */
 static const char *
 kind_name(uint32 kind)
 {
@@ -19,7 +19,7 @@ kind_name(uint32 kind)
 	return kind < lengthof(names) ? names[kind] : "geometry of another kind";
 }
 
-/* Of another kind; `what` names the geometry. */
+/* The geometry is of another kind; `what` names the geometry. */
 void
 geometry_refuse_kind(const char *what, uint32 kind, const char *wanted)
 {
@@ -33,7 +33,7 @@ geometry_refuse_kind(const char *what, uint32 kind, const char *wanted)
 			 is_collection ? errhint("Split the collection into its parts with ST_Dump.") : 0));
 }
 
-/* Of two systems; `wanted` is that of the whole, a mesh or an octree. */
+/* The geometry has another system; `wanted` is that of the whole, a mesh or an octree. */
 void
 geometry_refuse_srid(const char *what, int32 srid, int32 wanted, const char *whole)
 {

@@ -1,5 +1,5 @@
 /*
- * geometry_errors.h: what is wrong with a geometry, and what to do about it.
+ * geometry_errors.h: errors about geometries, with hints.
  */
 #ifndef ABACUS_POSTGIS_GEOMETRY_ERRORS_H
 #define ABACUS_POSTGIS_GEOMETRY_ERRORS_H

@@ -1,5 +1,5 @@
 /*
- * geometry_read.c: geometries of PostGIS read, as the bytes that ewkb.h describes.
+ * geometry_read.c: reads geometries of PostGIS from the bytes that ewkb.h describes.
  */
 #include "postgres.h"
 
@@ -20,7 +20,7 @@ take(GeometryBytes *bytes, void *value, size_t size)
 	bytes->at += size;
 }
 
-/* A number of things that follow. */
+/* Reads how many elements follow. */
 uint32
 geometry_count(GeometryBytes *bytes)
 {
@@ -54,7 +54,7 @@ geometry_bytes(const GeometryType *type, Datum geometry)
 	return bytes;
 }
 
-/* What comes next is a geometry: its head. */
+/* Reads the head of a geometry. */
 GeometryHead
 geometry_head(GeometryBytes *bytes)
 {
@@ -72,7 +72,7 @@ geometry_head(GeometryBytes *bytes)
 	return head;
 }
 
-/* What comes next is a place of a geometry: x, y, z, m; 0 stands for those that it has not. */
+/* Reads a place of a geometry: x, y, z, m; 0 stands for missing ones. */
 void
 geometry_coordinates(GeometryBytes *bytes, const GeometryHead *head, double *at)
 {

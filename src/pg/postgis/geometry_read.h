@@ -1,5 +1,5 @@
 /*
- * geometry_read.h: geometries of PostGIS read.
+ * geometry_read.h: reads geometries of PostGIS.
  */
 #ifndef ABACUS_POSTGIS_GEOMETRY_READ_H
 #define ABACUS_POSTGIS_GEOMETRY_READ_H

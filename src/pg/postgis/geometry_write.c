@@ -1,9 +1,9 @@
 /*
- * geometry_write.c: geometries of PostGIS made of the bytes that ewkb.h describes, in the byte order
- * of the machine.
+ * geometry_write.c: makes geometries of PostGIS from the bytes that ewkb.h describes, in the byte
+ * order of the machine.
  *
- * A geometry is received as a column receives it, by the column's type modifier. It tells the SRID
- * that PostGIS gives to a geometry without one.
+ * A geometry is received as a column receives it, with the column's type modifier. The modifier
+ * gives the SRID for a geometry without one.
  */
 #include "postgres.h"
 
@@ -48,7 +48,7 @@ geometry_put_numbers(StringInfo bytes, const double *numbers, size_t count)
 	appendBinaryStringInfo(bytes, (const char *) numbers, (int) size);
 }
 
-/* Appends a line, or a ring that has its first place again at the end. */
+/* Appends a line, or a ring whose first place is repeated at the end. */
 void
 geometry_put_places(StringInfo bytes, const double *places, size_t count, int dimension, bool closes)
 {
@@ -58,7 +58,7 @@ geometry_put_places(StringInfo bytes, const double *places, size_t count, int di
 		geometry_put_numbers(bytes, places, dimension);
 }
 
-/* Appends a triangle, or a polygon that is one; with z if the head has it. */
+/* Appends a triangle, or a polygon that is a triangle; with z if the head has it. */
 void
 geometry_put_triangle(StringInfo bytes, const GeometryHead *head, const double *corners)
 {
@@ -67,7 +67,9 @@ geometry_put_triangle(StringInfo bytes, const GeometryHead *head, const double *
 	geometry_put_places(bytes, corners, 3, 2 + head->has_z, true);
 }
 
-/* Appends a closed surface of the four facets of a tetrahedron, counterclockwise seen from outside. */
+/*
+ * Appends the closed surface of a tetrahedron: four facets, counterclockwise as seen from outside.
+ */
 void
 geometry_put_tetrahedron(StringInfo bytes, const double *corners, int32 srid)
 {
@@ -87,14 +89,14 @@ geometry_put_tetrahedron(StringInfo bytes, const double *corners, int32 srid)
 	}
 }
 
-/* The geometry of these bytes, as a column with this type modifier receives it. */
+/* The geometry from these bytes, as a column with this type modifier receives it. */
 Datum
 geometry_received(const GeometryType *type, StringInfo bytes, int32 modifier)
 {
 	return ReceiveFunctionCall(unconstify(FmgrInfo *, &type->receive), bytes, type->type, modifier);
 }
 
-/* The geometry of these bytes. */
+/* The geometry from these bytes. */
 Datum
 geometry_made(const GeometryType *type, StringInfo bytes)
 {

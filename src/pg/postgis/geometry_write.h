@@ -1,5 +1,5 @@
 /*
- * geometry_write.h: geometries of PostGIS made.
+ * geometry_write.h: makes geometries of PostGIS.
  */
 #ifndef ABACUS_POSTGIS_GEOMETRY_WRITE_H
 #define ABACUS_POSTGIS_GEOMETRY_WRITE_H

@@ -1,9 +1,9 @@
 /*
- * reference_system.c: what is known of a spatial reference system by its number.
+ * reference_system.c: the facts about a spatial reference system, by its number.
  *
- * The table spatial_ref_sys of PostGIS describes it. Without PostGIS, or without the right to read that
- * table, some numbers of the EPSG are known: those under which most data in longitude and latitude is
- * published.
+ * The table spatial_ref_sys of PostGIS describes it. Without PostGIS, or without the right to read
+ * that table, only some EPSG numbers are known: those of the systems in which most data in
+ * longitude and latitude is published.
  */
 #include "postgres.h"
 
@@ -71,7 +71,7 @@ schema_of_type(Oid type)
 	return schema;
 }
 
-/* The name of the table that describes them, if the user may read it; else NULL. */
+/* The name of the table of systems, if the user may read it, otherwise NULL. */
 static char *
 readable_table(void)
 {

@@ -1,5 +1,5 @@
 /*
- * reference_system.h: what is known of a spatial reference system by its number.
+ * reference_system.h: the facts about a spatial reference system, by its number.
  */
 #ifndef ABACUS_REFERENCE_SYSTEM_H
 #define ABACUS_REFERENCE_SYSTEM_H

@@ -1,25 +1,23 @@
 /*
- * compact.c: the rows of a mesh moved to the beginning of their tables.
+ * compact.c: moves the rows of a mesh to the beginning of their tables.
  *
- * A page of a mesh fills a heap page. A statement that changes pages all over the mesh
- * writes all of them anew, and the old versions are free only after its commit. So the
- * table becomes twice as large. From then on half of it is empty, each time another
- * half, and some rows always lie near its end, which VACUUM could otherwise cut off.
- * Nothing inside one transaction helps. But abacus_build and VACUUM (vacuum.c) may
- * commit in between. So they move the rows at the end to the empty heap pages at the
- * beginning, until the two meet. As a rule each row moves once. Other writers are kept
- * away meanwhile. The vertex table has such an empty beginning where staged points
+ * A page of a mesh fills a heap page. A statement that changes pages all over the mesh writes new
+ * versions of all of them, and the old ones are free only after its commit. So the table doubles in
+ * size. From then on one half of it is empty, each time the other half, and some rows always lie
+ * near its end, which VACUUM could otherwise cut off. Nothing inside one transaction helps. But
+ * abacus_build and VACUUM (vacuum.c) may commit in between. So they move the rows at the end to the
+ * empty heap pages at the beginning, until the two meet. As a rule each row moves once. Other
+ * writers are kept away meanwhile. The vertex table has such an empty beginning where staged points
  * were, and the pages of repeated points lie behind it.
  *
- * A move is a deletion and an insertion of the same row: an update would leave a small
- * row on its heap page. Readers see the one or the other, by their snapshots. What
- * sessions hold of the mesh in memory stays valid, since the stamp of the header stays.
- * But each batch of moves writes the header, as every change does. A writer with an
- * older snapshot would look for pages where they were, and learns from the header that
- * it must not.
+ * A move is a deletion and an insertion of the same row: an update would leave a small row on its
+ * heap page. Readers see the one or the other, by their snapshots. The data that sessions hold of
+ * the mesh in memory stay valid, since the stamp of the header stays. But each batch of moves
+ * writes the header, as every change does. A writer with an older snapshot would look for pages in
+ * their old places; the new header tells it that it must not.
  *
- * Rows that somebody's snapshot still sees keep their heap pages. The others are moved,
- * and a later call goes on.
+ * Rows that some snapshot still sees keep their heap pages. The others are moved, and a later call
+ * continues.
  *
  * The file keeps its length. Index entries still point to the old places of the moved
  * rows. Only VACUUM removes these entries, and then it cuts the file by itself.
@@ -36,14 +34,14 @@
 #include "pg/store/page_search.h"
 #include "pg/store/page_write.h"
 
-/* Heap pages by which a larger table is judged. */
+/* Number of heap pages in the sample of a larger table. */
 #define SAMPLE 1024
 /* Rows moved in one transaction, which a cancel or a crash undoes. */
 #define ROWS_AT_ONCE 1024
-/* Empty heap pages, besides an eighth of the table, that are not worth the moves. */
+/* This many empty heap pages, besides an eighth of the table, are not worth moving rows. */
 #define FEW_PAGES 8
 
-/* Whether much of a table is empty, judged by some of its heap pages. */
+/* Whether much of a table is empty, judged by a sample of its heap pages. */
 static bool
 is_worthwhile(Superseded *superseded, Relation heap)
 {
@@ -56,8 +54,8 @@ is_worthwhile(Superseded *superseded, Relation heap)
 }
 
 /*
- * Whether compact() would do something, judged by the table alone. The caller has any
- * lock on it, and a snapshot must be active.
+ * Whether compact() would do something, judged by the table alone. The caller has some lock on it,
+ * and a snapshot must be active.
  */
 bool
 compact_is_worthwhile(Relation heap)
@@ -70,7 +68,7 @@ compact_is_worthwhile(Relation heap)
 	return is;
 }
 
-/* Whether a row lies behind an empty heap page; if so, *end is behind the last one. */
+/* Whether a row lies behind an empty heap page; if so, *end is set behind the last such row. */
 static bool
 find_last_row(PageTable *table, BlockNumber *end)
 {
@@ -96,7 +94,7 @@ static int
 move_rows(PageTable *table, BlockNumber *end)
 {
 	TupleTableSlot *slot = table_slot_create(table->heap, NULL);
-	bool		room = true;	/* on an empty heap page before the row */
+	bool		room = true;	/* whether an empty heap page is left before the row */
 	int			moved = 0;
 
 	while (room && moved < ROWS_AT_ONCE && *end > 0)
@@ -122,7 +120,7 @@ move_rows(PageTable *table, BlockNumber *end)
 static uint64
 compact_table(Writer *writer, PageTable *table)
 {
-	uint64		looked = 0;		/* at the heap pages before this one */
+	uint64		looked = 0;		/* number of heap pages surveyed */
 	uint64		moved = 0;
 	BlockNumber end;
 	int			rows = -1;
@@ -145,17 +143,16 @@ compact_table(Writer *writer, PageTable *table)
 		SPI_commit();
 		writer_continue(writer);
 		page_table_open(table);
-		/* of the vertex table others may have cut the file, or made another one */
+		/* others may have cut the file of the vertex table, or made another one */
 		end = Min(end, RelationGetNumberOfBlocks(table->heap));
 	}
 	return moved;
 }
 
 /*
- * Moves the rows of a mesh to the beginning of the one table, the other or both,
- * and commits after each batch. The caller has kept others from changing the
- * mesh by a lock of the session (mesh.h), and no core handle has it open. Returns
- * how many were moved.
+ * Moves the rows of a mesh to the beginning of the one table, the other or both, and commits after
+ * each batch. The caller has kept others from changing the mesh by a lock of the session (mesh.h),
+ * and no core handle has it open. Returns how many rows were moved.
  */
 uint64
 compact(Writer *writer, bool simplices, bool vertices)

@@ -1,5 +1,5 @@
 /*
- * compact.h: the rows of a mesh moved to the beginning of their tables.
+ * compact.h: moves the rows of a mesh to the beginning of their tables.
  */
 #ifndef ABACUS_COMPACT_H
 #define ABACUS_COMPACT_H

@@ -1,12 +1,11 @@
 /*
- * truncate.c: the file of a table whose rows are all dead.
+ * truncate.c: cuts the file of a table whose rows are all dead.
  *
- * A build in batches takes its points from vertex pages and erases them, each batch in
- * a transaction of its own. At the end the vertex table holds nothing but dead rows,
- * and its file keeps its size until VACUUM cuts it. The file can be cut at once if no
- * transaction may still see a row and nobody has the table open. A session on a standby
- * may have it open. It is cancelled when the truncation arrives there, as after
- * VACUUM's; the table's setting vacuum_truncate forbids both.
+ * A build in batches takes its points from vertex pages and erases them, each batch in a
+ * transaction of its own. At the end the vertex table holds only dead rows, and its file keeps its
+ * size until VACUUM cuts it. The file can be cut at once if no transaction may still see a row and
+ * no one has the table open. A session on a standby may have it open. It is cancelled when the
+ * truncation arrives there, as after VACUUM's; the table's setting vacuum_truncate forbids both.
  *
  * As with TRUNCATE, table and index get new files, and the old ones go at commit.
  * Cutting the files in place would not survive a crash: for a moment the cut table and
@@ -29,7 +28,7 @@
 #include "pg/port/port.h"
 #include "pg/space/truncate.h"
 
-/* Whether a row is there that VACUUM would not remove. */
+/* Whether there is a row that VACUUM would not remove. */
 static bool
 has_rows(Relation rel)
 {
@@ -46,7 +45,7 @@ has_rows(Relation rel)
 	return found;
 }
 
-/* New, empty files for a table and its indexes, under the lock of the caller. */
+/* Makes new, empty files for a table and its indexes, under the caller's lock. */
 static void
 truncate_table(Relation rel)
 {
@@ -66,9 +65,9 @@ is_empty(Relation rel)
 }
 
 /*
- * Truncates a table if it has only dead rows and nobody uses it; nobody can then until the
- * transaction ends. Returns whether. The lock is asked for only if it will be used: standbys
- * hear of it.
+ * Truncates a table if it has only dead rows and no one uses it; no one can then until the
+ * transaction ends. Returns whether it did. It takes the lock only when it will use it, since
+ * standbys replay the lock.
  */
 bool
 truncate_if_empty(Oid relid)

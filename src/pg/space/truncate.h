@@ -1,5 +1,5 @@
 /*
- * truncate.h: the file of a table whose rows are all dead.
+ * truncate.h: cuts the file of a table whose rows are all dead.
  */
 #ifndef ABACUS_TRUNCATE_H
 #define ABACUS_TRUNCATE_H

@@ -1,22 +1,21 @@
 /*
- * vacuum.c: VACUUM of a mesh gives its space back.
+ * vacuum.c: lets VACUUM of a mesh give back its space.
  *
- * VACUUM cuts a file behind the last row, and a mesh that was changed all over has rows
- * everywhere (compact.c). So in a session that has this module loaded, more follows a
- * VACUUM where it is worth it. Rows are moved to the beginning of their tables
- * (vacuum_moves.c), as at the end of abacus_build. Then these tables are vacuumed
- * again, which removes the old index entries of the moved rows and cuts the files. Rows
- * that somebody still sees keep their places until a later VACUUM.
+ * VACUUM cuts a file behind the last row, and a mesh that was changed all over has rows everywhere
+ * (compact.c). So in a session that has loaded this module, a VACUUM is followed by more work if it
+ * pays. Rows are moved to the beginning of their tables (vacuum_moves.c), as at the end of
+ * abacus_build. Then these tables are vacuumed again, which removes the old index entries of the
+ * moved rows and cuts the files. Rows that a snapshot still sees keep their places until a later
+ * VACUUM.
  *
- * Moving rows before a single VACUUM would not do, for two reasons. Statements that
- * change few points leave a hundred and more dead line pointers on each heap page, so
- * that no row fits. Only VACUUM removes them. And a failure here cannot keep VACUUM
- * from its work, which is done by then.
+ * Moving rows before a single VACUUM would not do, for two reasons. Statements that change few
+ * points leave a hundred or more dead line pointers on each heap page, so that no row fits. Only
+ * VACUUM removes them. And a failure here cannot disturb VACUUM, which has already finished.
  *
- * VACUUM ends in a fresh transaction, and so do we. An aborted transaction may release
- * the plan to which the statement belongs, so the statement is copied.
+ * VACUUM ends in a fresh transaction, and so do we. An aborted transaction may release the plan
+ * that the statement belongs to, so the statement is copied.
  *
- * The workers of autovacuum run no statement, so they do not come here.
+ * Autovacuum workers run no statement, so they do not get here.
  */
 #include "postgres.h"
 
@@ -46,7 +45,7 @@
 
 static ProcessUtility_hook_type previous_hook = NULL;
 
-/* ---- What is asked for ---------------------------------------------------- */
+/* ---- Options and tables ----------------------------------------------------- */
 
 /* Reads INDEX_CLEANUP; false if it is off. */
 static bool
@@ -83,8 +82,8 @@ read_options(const VacuumStmt *statement, VacuumOptions *options)
 }
 
 /*
- * The statement for the tables that have been moved: without ANALYZE, and with
- * INDEX_CLEANUP, else VACUUM puts off what concerns few heap pages.
+ * The statement for the tables whose rows were moved: without ANALYZE, and with INDEX_CLEANUP,
+ * since otherwise VACUUM postpones work that concerns few heap pages.
  */
 static VacuumStmt *
 vacuum_again(const VacuumStmt *statement)
@@ -106,7 +105,7 @@ vacuum_again(const VacuumStmt *statement)
 	return again;
 }
 
-/* Adds a table, if it is one of a mesh. */
+/* Adds a table, if it belongs to a mesh. */
 static List *
 add_table(List *jobs, Oid relid)
 {
@@ -156,7 +155,7 @@ all_meshes(void)
 	return jobs;
 }
 
-/* The meshes that a VACUUM was about, in the current memory context. */
+/* The meshes of a VACUUM, in the current memory context. */
 static List *
 find_jobs(const VacuumStmt *statement)
 {
@@ -177,11 +176,11 @@ find_jobs(const VacuumStmt *statement)
 
 /* ---- The hook ------------------------------------------------------------- */
 
-/* After a VACUUM that has succeeded. */
+/* Runs after a VACUUM that has succeeded. */
 static void
 after_vacuum(const VacuumStmt *statement, const char *query)
 {
-	/* goes with the portal */
+	/* freed with the portal */
 	MemoryContext home = AllocSetContextCreate(PortalContext, "Abacus vacuum",
 											   ALLOCSET_SMALL_SIZES);
 	VacuumOptions options;
@@ -198,17 +197,17 @@ after_vacuum(const VacuumStmt *statement, const char *query)
 		ParseState *state = make_parsestate(NULL);
 
 		state->p_sourcetext = query;
-		/* not by the hooks: it is one statement */
+		/* without the hooks: it is one statement */
 		ExecVacuum(state, again, true);
 	}
 }
 
-/* Whether tables of meshes may be looked at. */
+/* Whether to look at tables of meshes. */
 static bool
 is_due(void)
 {
 	return setting_vacuum_moves_rows() && !XactReadOnly && !RecoveryInProgress() &&
-		!port_snapshots_may_be_too_old() &&	/* else VACUUM cuts no file */
+		!port_snapshots_may_be_too_old() &&	/* otherwise VACUUM cuts no file */
 		OidIsValid(get_extension_oid("abacus", true));
 }
 

@@ -1,5 +1,5 @@
 /*
- * vacuum.h: VACUUM of a mesh moves its rows before it cuts the file.
+ * vacuum.h: lets VACUUM of a mesh move its rows before the file is cut.
  */
 #ifndef ABACUS_VACUUM_H
 #define ABACUS_VACUUM_H

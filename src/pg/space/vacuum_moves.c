@@ -1,17 +1,16 @@
 /*
- * vacuum_moves.c: the rows of meshes that have been vacuumed, moved to the
- * beginning of their tables.
+ * vacuum_moves.c: moves the rows of vacuumed meshes to the beginning of their tables.
  *
- * Rows are moved only where the file will be cut, so not if the table's settings keep
- * VACUUM from cutting it. Users who may vacuum a table may have its rows moved: that
- * shows and changes nothing of the rows, and calls no function of a user.
+ * Rows are moved only if the file will be cut, so not if the table's settings keep VACUUM from
+ * cutting it. Users who may vacuum a table may have its rows moved: that neither shows nor changes
+ * the rows, and calls no function of a user.
  *
- * The moves wait for nobody: a mesh that somebody is changing stays as it is. A mesh
- * without much empty space costs a look at a sample of its heap pages.
+ * The moves never wait: a mesh that someone is changing stays as it is. For a mesh without much
+ * empty space, the cost is reading a sample of its heap pages.
  *
- * The moves are transactions of their own. One that fails is rolled back, as autovacuum
- * does it, and the failure becomes a warning. A cancel stays an error. We are at the
- * outermost level, so only our own transaction is aborted.
+ * The moves are transactions of their own. One that fails is rolled back, as in autovacuum, and the
+ * failure becomes a warning. A cancel remains an error. We are at the outermost level, so only our
+ * own transaction is aborted.
  */
 #include "postgres.h"
 
@@ -32,7 +31,7 @@
 #include "pg/space/compact.h"
 #include "pg/space/vacuum_moves.h"
 
-/* Whether VACUUM does not refuse the table; false if it has gone. */
+/* Whether the user may VACUUM the table; false if it no longer exists. */
 static bool
 may_vacuum(Oid relid)
 {
@@ -53,7 +52,7 @@ is_spared(Relation rel, const VacuumOptions *options)
 		 settings->vacuum_index_cleanup == STDRD_OPTION_VACUUM_INDEX_CLEANUP_OFF);
 }
 
-/* Whether the rows of this table are worth moving, and may be. */
+/* Whether moving the rows of this table is worth it and allowed. */
 static bool
 is_wanted(Oid relid, const VacuumOptions *options)
 {
@@ -98,8 +97,8 @@ move_rows(const VacuumJob *job, MemoryContext memory)
 }
 
 /*
- * Moves the rows of one mesh, if that is worth it and nobody is in the way. Returns
- * whether; where none had to be moved, VACUUM has put off what is before the cut.
+ * Moves the rows of one mesh, if that is worth it and no one has it locked. Returns whether the
+ * tables are due: even if no row had to move, VACUUM has postponed the work before the cut.
  */
 static bool
 move_mesh(VacuumJob *job, const VacuumOptions *options, MemoryContext memory)
@@ -113,7 +112,7 @@ move_mesh(VacuumJob *job, const VacuumOptions *options, MemoryContext memory)
 		job->simplices = InvalidOid;
 	if (!is_wanted(job->vertices, options))
 		job->vertices = InvalidOid;
-	/* the header is in the simplex table, and written in any case */
+	/* the header is in the simplex table, and is always written */
 	if ((!OidIsValid(job->simplices) && !OidIsValid(job->vertices)) || !may_vacuum(job->mesh))
 		return false;
 	if (!mesh_try_lock_for_session(job->mesh, OidIsValid(job->vertices), &locks))
@@ -135,8 +134,8 @@ move_mesh(VacuumJob *job, const VacuumOptions *options, MemoryContext memory)
 }
 
 /*
- * After an error: takes the transaction back, which gives up all locks, and says
- * what was wrong. Cancels go on.
+ * After an error: rolls the transaction back, which releases all locks, and reports the error as a
+ * warning. Cancels are thrown again.
  */
 static void
 give_up(const VacuumJob *job, MemoryContext memory)
@@ -149,7 +148,7 @@ give_up(const VacuumJob *job, MemoryContext memory)
 		PG_RE_THROW();
 	FlushErrorState();
 	AbortCurrentTransaction();
-	ActivePortal->portalSnapshot = NULL;	/* went with the transaction */
+	ActivePortal->portalSnapshot = NULL;	/* gone with the transaction */
 	StartTransactionCommand();
 	MemoryContextSwitchTo(memory);
 	ereport(WARNING,
@@ -159,7 +158,7 @@ give_up(const VacuumJob *job, MemoryContext memory)
 			 error->hint != NULL ? errhint("%s", error->hint) : 0));
 }
 
-/* Moves the rows of meshes. Returns the tables that are to be vacuumed again. */
+/* Moves the rows of meshes. Returns the tables to vacuum again. */
 List *
 vacuum_move_meshes(List *jobs, const VacuumOptions *options, MemoryContext home)
 {

@@ -1,21 +1,20 @@
 /*
- * vacuum_moves.h: the rows of meshes that have been vacuumed, moved to the
- * beginning of their tables.
+ * vacuum_moves.h: moves the rows of vacuumed meshes to the beginning of their tables.
  */
 #ifndef ABACUS_VACUUM_MOVES_H
 #define ABACUS_VACUUM_MOVES_H
 
 #include "nodes/pg_list.h"
 
-/* What the statement says about all tables. */
+/* The statement's options for all tables. */
 typedef struct VacuumOptions
 {
 	bool		verbose;
-	bool		truncate;		/* said to be on: the tables' settings do not count */
+	bool		truncate;		/* explicitly on: the tables' settings do not count */
 	bool		index_cleanup;	/* likewise */
 } VacuumOptions;
 
-/* A mesh, and its tables as far as they are vacuumed, else InvalidOid. */
+/* A mesh, and its tables if they are vacuumed, otherwise InvalidOid. */
 typedef struct VacuumJob
 {
 	Oid			mesh;

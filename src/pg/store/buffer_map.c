@@ -1,11 +1,10 @@
 /*
- * buffer_map.c: shared buffers come into this process's address space many at a time.
+ * buffer_map.c: maps shared buffers into this process's address space, many at a time.
  *
- * All processes share the buffers, but the kernel has to map each one into each
- * process: two page faults for each buffer that the process writes to. A writer of
- * thousands of pages gets buffers as the server hands them out, nearly in a row. So
- * around each buffer with a new page a stretch of them is mapped at once (populate.h),
- * and each stretch only once.
+ * All processes share the buffers, but the kernel has to map each one into each process: two page
+ * faults for each buffer that the process writes to. A writer of thousands of pages gets buffers
+ * from the server nearly in sequence. So around each buffer with a new page, a stretch of them is
+ * mapped at once (populate.h), and each stretch only once.
  */
 #include "postgres.h"
 
@@ -19,10 +18,10 @@
 
 #define STRETCH 32				/* buffers */
 
-/* For each stretch, whether this process has asked for it. */
+/* For each stretch, whether this process has mapped it. */
 static bool *mapped = NULL;
 
-/* Asks for the buffers around this one, unless it is InvalidBuffer or a temporary table's. */
+/* Maps the buffers around this one, unless it is InvalidBuffer or a temporary table's. */
 void
 buffer_map_around(Buffer buffer)
 {

@@ -1,5 +1,5 @@
 /*
- * buffer_map.h: shared buffers that come into this process's address space.
+ * buffer_map.h: maps shared buffers into this process's address space.
  */
 #ifndef ABACUS_BUFFER_MAP_H
 #define ABACUS_BUFFER_MAP_H

@@ -1,10 +1,10 @@
 /*
- * heap_growth.c: a table of pages grows by many heap pages at a time.
+ * heap_growth.c: lets a table of pages grow by many heap pages at a time.
  *
- * A heap adds its pages one by one, each by a write of zeros. A writer of more than a few rows
- * asks for many at once (extend.c), which the file system reserves without writing. Where that
- * cannot be done, pages come one by one. The new pages are empty: scans skip them, and an
- * insertion initializes them. Those that stay unused are entered into the free space map.
+ * A heap adds its pages one by one, each by a write of zeros. A writer of more than a few rows asks
+ * for many at once (extend.c), which the file system reserves without writing. If that is
+ * impossible, pages come one by one. The new pages are empty: scans skip them, and an insertion
+ * initializes them. Unused ones are entered into the free space map.
  */
 #include "postgres.h"
 
@@ -16,12 +16,14 @@
 #include "pg/store/buffer_map.h"
 #include "pg/store/heap_growth.h"
 
-/* A table grows by a page for so many rows that have been stored, */
+/* A table grows by one page for this many stored rows, */
 #define ROWS_A_PAGE 16
-/* ... and by no more than this share of the shared buffers, which would evict some of them again. */
+/*
+ * ... but at most by this share of the shared buffers, since more would evict some of them again.
+ */
 #define BUFFERS_A_PAGE 8
 
-/* Adds so many pages, or fewer. */
+/* Adds this many pages, or fewer. */
 static void
 grow(HeapGrowth *growth, Relation heap, int pages)
 {
@@ -39,9 +41,9 @@ grow(HeapGrowth *growth, Relation heap, int pages)
 }
 
 /*
- * A new heap page for a row of `size` bytes, if so many rows have been stored that the
- * table had better grow by several, and the free space map knows of none that has room. Else
- * InvalidBlockNumber: then the heap finds one by itself.
+ * A new heap page for a row of `size` bytes, if enough rows have been stored that the table should
+ * grow by several, and the free space map knows of no page with room. Otherwise InvalidBlockNumber:
+ * then the heap finds a page by itself.
  */
 BlockNumber
 heap_growth_take(HeapGrowth *growth, Relation heap, Size size, uint64 stored)
@@ -60,7 +62,7 @@ heap_growth_take(HeapGrowth *growth, Relation heap, Size size, uint64 stored)
 	return growth->next++;
 }
 
-/* No more rows follow: others may have the pages that are left. */
+/* No more rows follow: others may use the remaining pages. */
 void
 heap_growth_end(HeapGrowth *growth, Relation heap)
 {

@@ -1,5 +1,5 @@
 /*
- * heap_room.c: how large a row a heap page has room for.
+ * heap_room.c: the room for a row on a heap page.
  */
 #include "postgres.h"
 
@@ -7,7 +7,7 @@
 
 #include "pg/store/heap_room.h"
 
-/* On a locked page; also on one of zeros, which nobody has initialized yet. */
+/* On a locked page, even one of zeros that is not initialized yet. */
 Size
 heap_room_on(Buffer buffer)
 {
@@ -16,7 +16,7 @@ heap_room_on(Buffer buffer)
 	return PageIsNew(page) ? NEW_HEAP_PAGE_ROOM : PageGetHeapFreeSpace(page);
 }
 
-/* On a page that is not locked: as it was a moment ago. */
+/* On a page that is not locked: the room it had a moment ago. */
 Size
 heap_room_at(Relation heap, BlockNumber block)
 {

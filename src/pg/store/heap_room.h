@@ -1,5 +1,5 @@
 /*
- * heap_room.h: how large a row a heap page has room for.
+ * heap_room.h: the room for a row on a heap page.
  */
 #ifndef ABACUS_HEAP_ROOM_H
 #define ABACUS_HEAP_ROOM_H
@@ -8,7 +8,7 @@
 #include "storage/bufpage.h"
 #include "utils/rel.h"
 
-/* On a heap page without any row. */
+/* The room on a heap page without rows. */
 #define NEW_HEAP_PAGE_ROOM (BLCKSZ - SizeOfPageHeaderData - sizeof(ItemIdData))
 
 extern Size heap_room_on(Buffer buffer);

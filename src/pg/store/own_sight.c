@@ -1,19 +1,19 @@
 /*
- * own_sight.c: what a session's snapshots see of the changes of its own transaction.
+ * own_sight.c: which changes of its own transaction a session's snapshots see.
  *
  * No other session ever sees a row that a transaction has made and replaced again. In its own
- * session a snapshot sees it that was taken between the two commands: that of a cursor, of a loop
+ * session a snapshot that was taken between the two commands sees it: that of a cursor, of a loop
  * over a query, or of the statement from which this one is called. And a rollback to a savepoint
- * between the two brings it back. Otherwise nobody can see it.
+ * between the two brings the row back. Otherwise nothing can see it.
  *
- * PostgreSQL does not tell which snapshots there are. The registered ones lie in a pairing heap,
+ * PostgreSQL does not show which snapshots there are. The registered ones lie in a pairing heap,
  * whose nodes are part of the snapshots and lead from one to all others. The active ones are a
  * stack: to reach one, those above it are popped and pushed again. Each belongs to the nested
  * transaction that has pushed it, which cannot be seen. Outside all nested transactions there is no
  * doubt. In a nested transaction the first and the last can be reached, and, in a trigger, the last
- * but one. So all are known there if there are no more than these: in statements that a client
- * sends, and in those of a DO block, of a procedure, or of a function that such a statement calls.
- * Where they are not known, no row counts as past.
+ * but one. So there all snapshots are known if there are no more than these: in statements that a
+ * client sends, and in those of a DO block, of a procedure, or of a function that such a statement
+ * calls. If they are not known, no row counts as past.
  */
 #include "postgres.h"
 
@@ -35,7 +35,7 @@ add_snapshot(OwnSight *sight, Snapshot snapshot)
 		sight->from[sight->count++] = snapshot->curcid;
 }
 
-/* Adds those at this node of the heap, and below and behind it. */
+/* Adds the snapshots at this node of the heap, below it and behind it. */
 static void
 add_registered(OwnSight *sight, pairingheap_node *node)
 {
@@ -52,8 +52,8 @@ add_all_registered(OwnSight *sight)
 	Snapshot	mine;
 	pairingheap_node *root;
 
-	InvalidateCatalogSnapshot();	/* taken anew when needed */
-	/* sees all that was done before, so it does no harm; in the heap it leads to the others */
+	InvalidateCatalogSnapshot();	/* taken again when needed */
+	/* sees everything done before, so it does no harm; its node leads to the others in the heap */
 	mine = RegisterSnapshot(GetTransactionSnapshot());
 	for (root = &mine->ph_node; root->prev_or_parent != NULL;)
 		root = root->prev_or_parent;
@@ -61,7 +61,7 @@ add_all_registered(OwnSight *sight)
 	UnregisterSnapshot(mine);
 }
 
-/* Adds all active snapshots, where no nested transaction has pushed one. */
+/* Adds all active snapshots; no nested transaction has pushed one. */
 static void
 add_all_active(OwnSight *sight)
 {
@@ -101,8 +101,8 @@ last_but_one(void)
 }
 
 /*
- * Finds the snapshots that there are. `in_trigger`: we are called as a trigger. Then
- * the active snapshot is that of the statement, pushed in the innermost transaction.
+ * Finds the existing snapshots. `in_trigger`: this is called as a trigger. Then the active snapshot
+ * is that of the statement, pushed in the innermost transaction.
  */
 void
 own_sight_take(OwnSight *sight, bool in_trigger)
@@ -131,10 +131,10 @@ own_sight_take(OwnSight *sight, bool in_trigger)
 }
 
 /*
- * Whether two of our transactions, which have not been rolled back, will stay or be rolled back
- * together. A nested one that has ended belongs to the one around it. Numbers grow: a transaction
- * whose number is not less than that of the innermost open one belongs to that. About those between
- * it and the outermost one nothing is known.
+ * Whether two of our transactions that have not been rolled back will share their fate. A nested
+ * one that has ended belongs to the one around it. Numbers grow: a transaction whose number is not
+ * less than that of the innermost open one belongs to it. Nothing is known about transactions
+ * between that one and the outermost.
  */
 static bool
 share_fate(const OwnSight *sight, TransactionId one, TransactionId other)
@@ -154,7 +154,7 @@ share_fate(const OwnSight *sight, TransactionId one, TransactionId other)
 	}
 }
 
-/* Whether our transaction has made this row and replaced it, and nobody can see it any more. */
+/* Whether our transaction has made and replaced this row, and nothing can see it any more. */
 bool
 own_sight_is_past(const OwnSight *sight, HeapTupleHeader row)
 {

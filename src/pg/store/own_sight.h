@@ -1,5 +1,5 @@
 /*
- * own_sight.h: what a session's snapshots see of the changes of its own transaction.
+ * own_sight.h: which changes of its own transaction a session's snapshots see.
  */
 #ifndef ABACUS_OWN_SIGHT_H
 #define ABACUS_OWN_SIGHT_H
@@ -10,9 +10,9 @@
 
 typedef struct OwnSight
 {
-	bool		known;			/* these are all snapshots that there are */
+	bool		known;			/* these are all existing snapshots */
 	int			count;
-	CommandId	from[SIGHT_MOST_SNAPSHOTS]; /* each sees what commands before this one did */
+	CommandId	from[SIGHT_MOST_SNAPSHOTS]; /* each sees the changes of commands before this one */
 	int			level;			/* of nested transactions */
 	TransactionId innermost;	/* its transaction; invalid if it has no number yet */
 } OwnSight;

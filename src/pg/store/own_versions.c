@@ -1,19 +1,18 @@
 /*
- * own_versions.c: rows that a transaction has both made and replaced, pruned before it ends.
+ * own_versions.c: prunes rows that a transaction has both made and replaced, before it ends.
  *
- * PostgreSQL prunes what is dead to everybody, and nothing of a transaction in progress. But
- * a row that nobody can see any more (own_sight.c) is as dead now as it will be after the
- * commit or the rollback. A transaction that changes a mesh point by point leaves thousands
- * of them.
+ * PostgreSQL prunes what is dead to everyone, but nothing of a transaction in progress. But a row
+ * that nothing can see any more (own_sight.c) is as dead now as it will be after the commit or the
+ * rollback. A transaction that changes a mesh point by point leaves thousands of them.
  *
  * This does to a heap page what PostgreSQL's pruning does, with the same function and the same
- * record of the write-ahead log (pruning.c), under the same lock: nobody else has the page pinned. Line
- * pointers stay, as dead ones, until VACUUM has removed their index entries. A chain of versions on
- * one page (HOT) keeps its first line pointer, which leads to the first version that is left. A
- * standby replays it as any pruning. No snapshot there can be in its way, since none ever saw the
- * rows.
+ * record of the write-ahead log (pruning.c), under the same lock: no one else has the page pinned.
+ * Line pointers stay, as dead ones, until VACUUM has removed their index entries. A chain of
+ * versions on one page (HOT) keeps its first line pointer, which leads to the first remaining
+ * version. A standby replays it like any pruning. No snapshot there can be in its way, since none
+ * ever saw the rows.
  *
- * The version before, of another transaction, points to one that is gone. Only a row lock that a
+ * The version before, from another transaction, points to one that is gone. Only a row lock that a
  * user takes on a mesh's table follows that pointer. It finds what it would find after a DELETE.
  */
 #include "postgres.h"
@@ -60,8 +59,8 @@ row_at(Page page, OffsetNumber offset)
 }
 
 /*
- * Follows the chain of versions that begins at a line pointer, as long as they are
- * past. All but the first lose their places; an index leads to the first.
+ * Follows the chain of versions that begins at a line pointer, as long as they are past. All but
+ * the first lose their line pointers; an index points to the first.
  */
 static void
 judge_chain(Page page, OffsetNumber first, const OwnSight *sight, Pruning *pruning)
@@ -79,7 +78,7 @@ judge_chain(Page page, OffsetNumber first, const OwnSight *sight, Pruning *pruni
 
 		if (row == NULL || (past > 0 && HeapTupleHeaderGetRawXmin(row) != replaced_by))
 		{
-			pruning->unused_count = unused_before;	/* a state that we do not know */
+			pruning->unused_count = unused_before;	/* an unexpected state */
 			return;
 		}
 		if (!own_sight_is_past(sight, row))
@@ -118,8 +117,8 @@ judge_page(Page page, const OwnSight *sight, Pruning *pruning)
 }
 
 /*
- * Prunes what is past on a heap page; false if there is nothing, or the page is in use. Its room
- * goes to *room.
+ * Prunes past versions on a heap page; false if there are none, or the page is in use. *room gets
+ * its room.
  */
 bool
 own_versions_prune(Relation heap, BlockNumber block, const OwnSight *sight, Size *room)

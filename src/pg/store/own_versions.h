@@ -1,5 +1,5 @@
 /*
- * own_versions.h: rows that a transaction has both made and replaced, pruned before it ends.
+ * own_versions.h: prunes rows that a transaction has both made and replaced, before it ends.
  */
 #ifndef ABACUS_OWN_VERSIONS_H
 #define ABACUS_OWN_VERSIONS_H

@@ -1,16 +1,15 @@
 /*
- * page_fetch.c: a row of a table of pages by its place, which a search has returned
- * before.
+ * page_fetch.c: reads a row of a table of pages at a location that an earlier search returned.
  *
- * The index is not asked. Rows may have moved, and VACUUM may have cut the file. It
- * needs a lock for that, which ours excludes, so the length of the file is asked for
- * only once after each call of page_table_expect_moves().
+ * The index is not used. Rows may have moved, and VACUUM may have cut the file. For that it needs a
+ * lock, which ours excludes, so the length of the file is read only once after each call of
+ * page_table_expect_moves().
  *
- * Mostly the heap page is still in the same buffer. Then the shared table of buffers,
- * which as a rule lies in cold memory, need not be asked either. But such an access
- * does not count as a use of the buffer. So it is done only with buffers that have a
- * usage count to spare; otherwise the pages needed most would be replaced first. The
- * bytes to be read are prefetched before it is known whether they are still there.
+ * The heap page is mostly still in the same buffer. Then the shared table of buffers, which is
+ * usually in cold memory, is not needed either. But such an access does not count as a use of the
+ * buffer. So it is done only with buffers that have a usage count to spare; otherwise the pages
+ * needed most would be replaced first. The bytes to be read are prefetched before it is known
+ * whether they are still there.
  */
 #include "postgres.h"
 
@@ -31,8 +30,7 @@ page_table_expect_moves(PageTable *table)
 }
 
 /*
- * Loads whose values nobody waits for: a processor may drop prefetch instructions to
- * cold memory.
+ * Loads whose values are not needed: a processor may drop prefetch instructions to cold memory.
  */
 static void
 ask_for(const unsigned char *bytes, size_t size)
@@ -41,7 +39,7 @@ ask_for(const unsigned char *bytes, size_t size)
 		(void) ((const volatile unsigned char *) bytes)[at];
 }
 
-/* The row at *tid, if its heap page is in the buffer where its bytes were. */
+/* Reads the row at *tid, if its heap page is still in the buffer that held its bytes. */
 static bool
 fetch_where_it_was(PageTable *table, ItemPointer tid, const unsigned char *bytes, size_t size)
 {
@@ -75,8 +73,8 @@ fetch_where_it_was(PageTable *table, ItemPointer tid, const unsigned char *bytes
 }
 
 /*
- * The row at *tid, whatever it is; false if there is none that we see. `bytes`
- * is where its page was; `size` of them will be read.
+ * Reads the row at *tid, whatever it is; false if our snapshot sees none. `bytes` is where its page
+ * was; `size` of them will be read.
  */
 bool
 page_table_fetch(PageTable *table, ItemPointer tid, const unsigned char *bytes, size_t size,

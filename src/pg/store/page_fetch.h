@@ -1,5 +1,5 @@
 /*
- * page_fetch.h: rows of a table of pages by their place.
+ * page_fetch.h: reads rows of a table of pages by their location.
  */
 #ifndef ABACUS_PAGE_FETCH_H
 #define ABACUS_PAGE_FETCH_H

@@ -1,12 +1,12 @@
 /*
  * page_index.c: the indexes of a table of pages.
  *
- * Pages are found through the primary key. There may be other indexes. REINDEX
- * CONCURRENTLY builds a new one while writers go on. As soon as it is ready for that,
- * the writers add the entries that it would miss. They also keep the old one until
- * nobody reads it. So a writer keeps every index on the key columns, also those that
- * others have made. Indexes with expressions or predicates would need the executor, and indexes on
- * the page itself have no use: with one of them the mesh can only be read.
+ * Pages are found through the primary key. There may be other indexes. REINDEX CONCURRENTLY builds
+ * a new one while writers continue. As soon as it is ready, the writers add the entries that it
+ * would miss. They also maintain the old one until no one reads it. So a writer maintains every
+ * index on the key columns, including those that others have made. Indexes with expressions or
+ * predicates would need the executor, and indexes on the page itself are useless: with one of these
+ * the mesh can only be read.
  */
 #include "postgres.h"
 
@@ -24,11 +24,11 @@ typedef struct PageIndex
 } PageIndex;
 
 /*
- * The primary key, which must be what we search by. The table's list of indexes names
- * it only while it is valid. What the index says of itself may be newer or older than
- * the list, since others see that a transaction has committed before they hear what it
- * has changed. Then REINDEX CONCURRENTLY has just put one index in the other's place.
- * Both are whole, and stay so while we keep our lock on the table, which it waits for.
+ * The primary key, which must be the index that we search by. The table's list of indexes names it
+ * only while it is valid. The index's own entry may be newer or older than the list, since others
+ * see that a transaction has committed before they learn what it has changed. Then REINDEX
+ * CONCURRENTLY has just put one index in the other's place. Both are complete, and stay so while we
+ * keep our lock on the table, which it waits for.
  */
 Relation
 page_index_open_primary(Relation heap, LOCKMODE lock)
@@ -51,7 +51,7 @@ page_index_open_primary(Relation heap, LOCKMODE lock)
 	return index;
 }
 
-/* Whether entries can be made from the key columns alone. */
+/* Whether entries can be formed from the key columns alone. */
 static bool
 is_on_keys(const IndexInfo *info)
 {
@@ -63,7 +63,7 @@ is_on_keys(const IndexInfo *info)
 	return is;
 }
 
-/* All indexes that a writer has to keep, in the current memory context. */
+/* All indexes that a writer must maintain, in the current memory context. */
 List *
 page_index_open_all(Relation heap)
 {

@@ -1,6 +1,6 @@
 /*
- * page_index.h: the indexes of a table of pages: the primary key, by which
- * pages are found, and whatever else a writer has to keep.
+ * page_index.h: the indexes of a table of pages: the primary key, by which pages are found, and all
+ * others that a writer must maintain.
  */
 #ifndef ABACUS_PAGE_INDEX_H
 #define ABACUS_PAGE_INDEX_H

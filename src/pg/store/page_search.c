@@ -57,8 +57,8 @@ bound_key(PageTable *table, PageScan *scan, ScanKey bound, StrategyNumber strate
 }
 
 /*
- * The row with exactly this key. The search goes backwards: a transaction may have left
- * very many versions with this key, and the last ones are the nearest.
+ * The row with exactly this key. The search goes backwards: a transaction may have left very many
+ * versions with this key, and the last ones come first.
  */
 bool
 page_table_get(PageTable *table, const int64 *key, StoredPage *page)

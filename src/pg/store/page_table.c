@@ -1,5 +1,5 @@
 /*
- * page_table.c: a heap table of pages: opened, closed, and which heap page of it is being filled.
+ * page_table.c: a heap table of pages: opening, closing, and the heap page being filled.
  *
  * A writer sees its own changes because its active snapshot is a private copy whose
  * command id follows each change. There is one CommandCounterIncrement between a change
@@ -27,7 +27,7 @@ page_table_init(PageTable *table, Oid relid, bool writable, MemoryContext memory
 	table->memory = memory;
 }
 
-/* What the table and its indexes are opened with. */
+/* The lock for the table and its indexes. */
 LOCKMODE
 page_table_lock_mode(const PageTable *table)
 {
@@ -100,7 +100,7 @@ page_scan_close(PageScan *scan)
 	scan->slot = NULL;
 }
 
-/* Leaves the heap page that is being filled, if there is one; others may use the rest of it. */
+/* Leaves the heap page being filled, if there is one; others may use its rest. */
 void
 page_table_leave_target(PageTable *table)
 {
@@ -112,7 +112,7 @@ page_table_leave_target(PageTable *table)
 	table->target = InvalidBlockNumber;
 }
 
-/* Closes what is open; locks stay until the end of the transaction, as usual. */
+/* Closes the table and its indexes; locks stay until the end of the transaction, as usual. */
 void
 page_table_close(PageTable *table)
 {

@@ -1,11 +1,10 @@
 /*
- * page_write.c: rows of a table of pages are added, replaced, removed and moved.
+ * page_write.c: adds, replaces, removes and moves rows of a table of pages.
  *
- * It calls heap_insert and index_insert, as the executor does. It uses no
- * BulkInsertState, whose ring would evict pages that are about to be read again. It
- * uses no SKIP_FSM, since freed pages must be found; those that this session has freed
- * are taken from the beginning of the table on. Where none is free, the table grows by
- * many heap pages at a time.
+ * It calls heap_insert and index_insert, as the executor does. It uses no BulkInsertState, whose
+ * ring would evict pages that are about to be read again. It uses no SKIP_FSM, since freed pages
+ * must be found; those that this session has freed are used from the beginning of the table on. If
+ * none is free, the table grows by many heap pages at a time.
  */
 #include "postgres.h"
 
@@ -22,7 +21,7 @@
 #include "pg/store/page_type.h"
 #include "pg/store/page_write.h"
 
-/* From so many rows on, a writer counts as one of very many. */
+/* From this number of rows on, a writer counts as one of very many. */
 #define MANY_ROWS 16
 
 /* Forms the tuple of a row in the current memory context. */
@@ -42,9 +41,9 @@ form_row(PageTable *table, const int64 *key, const unsigned char *bytes, size_t 
 }
 
 /*
- * Chooses the heap page of the next row: the one that is being filled; or the first one
- * in the table that has become empty; or a new one of many, if the table may grow.
- * Returns it, or InvalidBlockNumber: then the heap looks for a page by itself.
+ * Chooses the heap page of the next row: the one being filled; or the first one in the table that
+ * has become empty; or one of many new ones, if the table may grow. Returns it, or
+ * InvalidBlockNumber: then the heap looks for a page by itself.
  */
 static BlockNumber
 choose_heap_page(PageTable *table, HeapTuple tuple, bool may_grow)
@@ -67,7 +66,7 @@ choose_heap_page(PageTable *table, HeapTuple tuple, bool may_grow)
 	return table->target;
 }
 
-/* Before the row at *tid is replaced, or removed. */
+/* Called before the row at *tid is replaced or removed. */
 static void
 note_superseded(PageTable *table, ItemPointer tid)
 {
@@ -80,7 +79,7 @@ note_superseded(PageTable *table, ItemPointer tid)
 	superseded_add(table->superseded, block);
 }
 
-/* After a row has been written that was on the heap page `from`, or on none. */
+/* Called after a row was written; before, it was on the heap page `from`, or did not exist. */
 static void
 note_written(PageTable *table, HeapTuple tuple, BlockNumber from)
 {
@@ -90,10 +89,10 @@ note_written(PageTable *table, HeapTuple tuple, BlockNumber from)
 	if (block == table->target)
 		table->room -= Min(MAXALIGN(tuple->t_len) + sizeof(ItemIdData), table->room);
 	else if (block != from)
-		table->target = InvalidBlockNumber; /* the heap has found no room there, and told the map */
+		table->target = InvalidBlockNumber; /* the heap found no room there and updated the map */
 }
 
-/* After a row has been stored. */
+/* Called after a row was stored. */
 static void
 note_stored(PageTable *table, HeapTuple tuple, BlockNumber from, ItemPointer tid)
 {
@@ -105,7 +104,7 @@ note_stored(PageTable *table, HeapTuple tuple, BlockNumber from, ItemPointer tid
 	heap_freetuple(tuple);
 }
 
-/* Adds a row; *tid becomes its place. */
+/* Adds a row; *tid gets its location. */
 void
 page_table_insert(PageTable *table, const int64 *key, const unsigned char *bytes, size_t size,
 				  ItemPointer tid)
@@ -122,7 +121,7 @@ page_table_insert(PageTable *table, const int64 *key, const unsigned char *bytes
 	note_stored(table, tuple, InvalidBlockNumber, tid);
 }
 
-/* Replaces the row at *tid, which must have this key; *tid becomes its new place. */
+/* Replaces the row at *tid, which must have this key; *tid gets its new location. */
 void
 page_table_update(PageTable *table, const int64 *key, const unsigned char *bytes, size_t size,
 				  ItemPointer tid)
@@ -132,7 +131,7 @@ page_table_update(PageTable *table, const int64 *key, const unsigned char *bytes
 	HeapTuple	tuple;
 
 	page_table_open(table);
-	/* an update would leave a small row where it lies */
+	/* an update would leave a small row in its place */
 	if (table->superseded != NULL &&
 		superseded_is_far(table->superseded, ItemPointerGetBlockNumber(tid)))
 	{
@@ -162,8 +161,8 @@ page_table_delete(PageTable *table, ItemPointer tid)
 }
 
 /*
- * Moves the row in the slot, as it is, to the first heap page that has become
- * empty; returns false if that is none before the one on which it lies.
+ * Moves the row in the slot, unchanged, to the first heap page that has become empty; false if
+ * there is none before the page where it lies.
  */
 bool
 page_table_move(PageTable *table, TupleTableSlot *slot)

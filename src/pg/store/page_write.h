@@ -1,5 +1,5 @@
 /*
- * page_write.h: rows of a table of pages added, replaced, removed and moved.
+ * page_write.h: adds, replaces, removes and moves rows of a table of pages.
  */
 #ifndef ABACUS_PAGE_WRITE_H
 #define ABACUS_PAGE_WRITE_H

@@ -1,5 +1,5 @@
 /*
- * stored_page.c: a row of a mesh's table as a page.
+ * stored_page.c: reads a row of a mesh's table as a page.
  */
 #include "postgres.h"
 
@@ -7,9 +7,9 @@
 #include "pg/store/stored_page.h"
 
 /*
- * A row in a table can be anything. A value that cannot be a page is handed to the core
- * as a page without bytes. The core refuses it as any page that it cannot read, with an
- * error or a fault for abacus_check.
+ * A row in a table can be anything. A value that cannot be a page is passed to the core as a page
+ * without bytes. The core rejects it like any page that it cannot read, with an error, or with a
+ * fault for abacus_check.
  */
 void
 stored_page_read(TupleTableSlot *slot, StoredPage *page)

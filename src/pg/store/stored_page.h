@@ -1,5 +1,5 @@
 /*
- * stored_page.h: a row of a mesh's table as a page.
+ * stored_page.h: reads a row of a mesh's table as a page.
  */
 #ifndef ABACUS_STORED_PAGE_H
 #define ABACUS_STORED_PAGE_H

@@ -1,31 +1,28 @@
 /*
- * superseded.c: the space of rows that were replaced.
+ * superseded.c: reclaims the space of rows that were replaced.
  *
- * A page of a mesh fills a heap page, so the new version of a row goes elsewhere and
- * the old one keeps its heap page. PostgreSQL would prune that page when somebody
- * visits it, but nobody does. No search leads to a dead row, and an insertion goes
- * where the free space map sends it, which pruning does not update. So a writer
- * remembers the heap pages that it left. When the commit has made the old versions
- * dead, it prunes these pages and enters their space into the map. abacus_build does so
- * after each batch, every other change at the session's next change of the mesh.
- * Otherwise each single point would leave pages behind.
+ * A page of a mesh fills a heap page, so the new version of a row goes elsewhere and the old one
+ * keeps its heap page. PostgreSQL would prune that page when someone visits it, but no one does. No
+ * search leads to a dead row, and an insertion goes where the free space map sends it, which
+ * pruning does not update. So a writer remembers the heap pages that it left. When the commit has
+ * made the old versions dead, it prunes these pages and enters their space into the map.
+ * abacus_build does so after each batch, every other change at the session's next change of the
+ * mesh. Otherwise each single point would leave pages behind.
  *
- * Versions that the current transaction has made itself need no commit: those that nobody can see
- * any more go at the transaction's next change (own_versions.c). Their heap pages are remembered
- * apart, each for one try, so that a change costs no more than the one before it. A few that are
- * still seen, as by a statement that makes several changes, are tried again.
+ * Versions that the current transaction has made itself need no commit: those that nothing can see
+ * any more are removed at the transaction's next change (own_versions.c). Their heap pages are
+ * remembered separately, each for one try, so that a change costs no more than the one before it. A
+ * few that are still seen, as by a statement that makes several changes, are tried again.
  *
- * Old versions that some transaction still sees stay, and are tried again the next
- * time. In any case a line pointer of four bytes and the index entry remain until
- * VACUUM.
+ * Old versions that some transaction still sees stay, and are tried again the next time. In any
+ * case a line pointer of four bytes and the index entry remain until VACUUM.
  *
- * What has become free is handed out from the beginning of the table on. The free space
- * map goes round and round. A table that has once grown, because somebody saw the old
- * versions for a while, would then have pages in use up to its end for ever, and VACUUM
- * could not cut it.
+ * Free heap pages are used from the beginning of the table on. The free space map goes round and
+ * round. A table that once grew, because someone saw the old versions for a while, would then
+ * always have pages in use up to its end, and VACUUM could not cut it.
  *
- * Versions that other sessions have left, or that were rolled back, are looked for only
- * when rows are moved anyway (compact.c), since that takes a look at every heap page.
+ * Versions left by other sessions, or rolled back, are looked for only when rows are moved anyway
+ * (compact.c), since that means reading every heap page.
  *
  * The heap pages are remembered in bitmaps: 2 MB for 64 GB of table.
  */
@@ -54,20 +51,20 @@
  * line pointer. Full pages of a mesh still fit for long, since most leave some room.
  */
 #define EMPTY_BYTES (BLCKSZ - BLCKSZ / 8)
-/* Heap pages; a row that is nearer than these to the beginning is left where it lies. */
+/* Heap pages; a row nearer than this to the beginning keeps its place. */
 #define NEAR_PAGES 4
-/* Heap pages with versions of our own that are tried again, at most. */
+/* The most heap pages with versions of our own that are tried again. */
 #define OWN_TRIED_AGAIN 16
 
 struct Superseded
 {
 	Size		bytes;
-	uint8	   *bits;			/* of each heap page: a row on it has been replaced */
+	uint8	   *bits;			/* for each heap page: a row on it has been replaced */
 	uint64		count;			/* of bits set */
-	uint8	   *free;			/* of each heap page: it has become empty */
-	Size		first_free;		/* no bit is set in the bytes before */
-	LocalTransactionId last;	/* that added one */
-	TransactionId horizon;		/* what somebody still saw when not all could be pruned */
+	uint8	   *free;			/* for each heap page: it has become empty */
+	Size		first_free;		/* all bytes before are zero */
+	LocalTransactionId last;	/* transaction that added a page last */
+	TransactionId horizon;		/* the horizon when not everything could be pruned */
 	BlockNumber *own;			/* heap pages where the current transaction has replaced its own rows */
 	uint32		own_count;
 	uint32		own_room;
@@ -97,7 +94,7 @@ superseded_forget(Superseded *superseded)
 	pfree(superseded);
 }
 
-/* Room in the bitmaps for this heap page. */
+/* Makes room in the bitmaps for this heap page. */
 static void
 cover(Superseded *superseded, BlockNumber block)
 {
@@ -145,7 +142,7 @@ superseded_add_own(Superseded *superseded, BlockNumber block)
 	superseded->own[superseded->own_count++] = block;
 }
 
-/* An empty heap page is the next to be written, if there is none before it. */
+/* An empty heap page is the next to be written, unless there is one before it. */
 static void
 hand_out(Superseded *superseded, BlockNumber block)
 {
@@ -171,9 +168,9 @@ first_empty(Superseded *superseded)
 }
 
 /*
- * Takes the first heap page that has become empty and still has room for `size` bytes,
- * since another session may have written it meanwhile. Its room goes to *room.
- * InvalidBlockNumber if there is none, and *room is left as it was.
+ * Takes the first heap page that has become empty and still has room for `size` bytes; another
+ * session may have written it meanwhile. *room gets its room. If there is none, returns
+ * InvalidBlockNumber, and *room is unchanged.
  */
 BlockNumber
 superseded_take_empty(Superseded *superseded, Relation heap, Size size, Size *room)
@@ -185,7 +182,7 @@ superseded_take_empty(Superseded *superseded, Relation heap, Size size, Size *ro
 		Size		here = 0;
 
 		superseded->free[block / BITS_PER_BYTE] &= ~(1 << (block % BITS_PER_BYTE));
-		/* VACUUM may have cut the table; it does not while we hold a lock on it */
+		/* VACUUM may have cut the table, but not while we hold a lock on it */
 		if (block < RelationGetNumberOfBlocks(heap))
 			here = heap_room_at(heap, block);
 		if (here >= size)
@@ -197,7 +194,7 @@ superseded_take_empty(Superseded *superseded, Relation heap, Size size, Size *ro
 	return InvalidBlockNumber;
 }
 
-/* Takes back a heap page on which so much room is left, if it is still almost empty. */
+/* Takes back a heap page with this much room left, if it is still almost empty. */
 void
 superseded_give_back(Superseded *superseded, BlockNumber block, Size room)
 {
@@ -206,9 +203,8 @@ superseded_give_back(Superseded *superseded, BlockNumber block, Size room)
 }
 
 /*
- * Whether a row lies far behind the first empty heap page. A row of less than half a
- * heap page, the header above all, is updated where it lies, and the table could not be
- * cut before it.
+ * Whether a row lies far behind the first empty heap page. An update keeps a row of less than half
+ * a heap page, such as the header, in its place, and then the table could not be cut before it.
  */
 bool
 superseded_is_far(Superseded *superseded, BlockNumber block)
@@ -222,10 +218,10 @@ superseded_is_far(Superseded *superseded, BlockNumber block)
 bool
 superseded_has_empty_before(Superseded *superseded, BlockNumber block)
 {
-	return first_empty(superseded) < block; /* so InvalidBlockNumber is not */
+	return first_empty(superseded) < block; /* so InvalidBlockNumber is not before any */
 }
 
-/* Whether a row is there whose insertion was rolled back; the page's header does not tell. */
+/* Whether there is a row whose insertion was rolled back; the page's header does not show that. */
 static bool
 has_rolled_back(Relation heap, Buffer buffer)
 {
@@ -250,9 +246,9 @@ has_rolled_back(Relation heap, Buffer buffer)
 }
 
 /*
- * Prunes a heap page and tells the free space map what room it has; *is_empty is
- * whether it has become empty. Returns false if there is more to prune, but not now,
- * since somebody still sees a row or is reading the page.
+ * Prunes a heap page and enters its room into the free space map; *is_empty says whether it has
+ * become empty. Returns false if more is left to prune, but not now, since someone still sees a row
+ * or is reading the page.
  */
 static bool
 reclaim(Superseded *superseded, Relation heap, BlockNumber block, bool *is_empty)
@@ -263,10 +259,10 @@ reclaim(Superseded *superseded, Relation heap, BlockNumber block, bool *is_empty
 	bool		done;
 
 	LockBuffer(buffer, BUFFER_LOCK_EXCLUSIVE);
-	/* a transaction that ended long ago: rolled-back rows are dead to everybody */
+	/* a transaction that ended long ago: rolled-back rows are dead to everyone */
 	if (!TransactionIdIsValid(((PageHeader) page)->pd_prune_xid) && has_rolled_back(heap, buffer))
 		PageSetPrunable(page, heap->rd_rel->relfrozenxid);
-	/* a page that a row was deleted from, and that has room, would not be pruned for long */
+	/* otherwise a page with a deleted row would not be pruned as long as it has room */
 	if (TransactionIdIsValid(((PageHeader) page)->pd_prune_xid))
 		PageSetFull(page);
 	LockBuffer(buffer, BUFFER_LOCK_UNLOCK);
@@ -283,9 +279,8 @@ reclaim(Superseded *superseded, Relation heap, BlockNumber block, bool *is_empty
 }
 
 /*
- * Gives the space back. The replacing transactions must have committed, and a snapshot
- * taken since must be active: it tells this backend that nobody else needs the old
- * versions.
+ * Gives the space back. The replacing transactions must have committed, and a snapshot taken since
+ * then must be active: it shows this backend that no one else needs the old versions.
  */
 void
 superseded_reclaim(Superseded *superseded, Relation heap)
@@ -349,16 +344,15 @@ reclaim_own(Superseded *superseded, Relation heap, const OwnSight *sight)
 }
 
 /*
- * The same for what transactions of the session before this one have left, or the
- * changes of this one so far. What cannot be reclaimed yet is tried again when no
- * transaction sees it.
+ * The same for versions from earlier transactions of the session, or from earlier changes in this
+ * transaction. What cannot be reclaimed yet is tried again when no transaction sees it.
  */
 void
 superseded_reclaim_earlier(Superseded *superseded, Relation heap, const OwnSight *sight)
 {
 	TransactionId horizon;
 
-	/* events of a user's own triggers on the table may wait for rows */
+	/* a user's own triggers on the table may have pending events that need the rows */
 	if (superseded->own_of == port_local_transaction() && superseded->own_count > 0 &&
 		heap->trigdesc == NULL)
 		reclaim_own(superseded, heap, sight);
@@ -372,9 +366,9 @@ superseded_reclaim_earlier(Superseded *superseded, Relation heap, const OwnSight
 }
 
 /*
- * Looks at every n-th heap page, from *block to before `end`, until enough are found to
- * be empty; these are handed out from now on. The space of dead rows there is
- * reclaimed, whichever session has left them. Returns how many are empty.
+ * Surveys every n-th heap page, from *block to before `end`, until enough are found to be empty;
+ * these will be used from now on. The space of dead rows there is reclaimed, whichever session left
+ * them. Returns how many are empty.
  */
 uint64
 superseded_survey(Superseded *superseded, Relation heap, uint64 *block, uint64 end,

@@ -1,6 +1,6 @@
 /*
- * superseded.h: the space of rows that were replaced, given back without
- * VACUUM once nobody sees them.
+ * superseded.h: reclaims the space of rows that were replaced, without VACUUM, once no one sees
+ * them.
  */
 #ifndef ABACUS_SUPERSEDED_H
 #define ABACUS_SUPERSEDED_H

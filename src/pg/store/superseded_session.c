@@ -1,10 +1,10 @@
 /*
- * superseded_session.c: what a session has left behind in the meshes that it changed
+ * superseded_session.c: the replaced rows that a session has left in the meshes that it changed
  * lately.
  *
- * The query that gives points to one mesh may change any number of other meshes. So an
- * entry that the current transaction has asked for may be in use, and does not make way
- * for another mesh. When there are too many meshes, the last ones get no entry.
+ * The source query for one mesh may change any number of other meshes. So an entry that the current
+ * transaction has requested may be in use, and does not make way for another mesh. If there are too
+ * many meshes, the last ones get no entry.
  */
 #include "postgres.h"
 
@@ -19,12 +19,12 @@
 static struct
 {
 	RelFileLocator node;
-	Superseded *superseded;		/* NULL while nothing is kept here */
-	LocalTransactionId used;	/* the last that asked for it */
+	Superseded *superseded;		/* NULL while the entry is free */
+	LocalTransactionId used;	/* the last transaction that requested it */
 }			kept[MESHES_KEPT];
 static int	next_kept = 0;
 
-/* Where what is left in this table is kept, or may be; MESHES_KEPT if nowhere. */
+/* The entry of this table, or one for it; MESHES_KEPT if there is none. */
 static int
 place_for(Relation heap)
 {
@@ -42,7 +42,7 @@ place_for(Relation heap)
 	return i;
 }
 
-/* What this session has left in a table; lives as long as the transaction, or longer. */
+/* The session's entry for a table; it lives at least as long as the transaction. */
 Superseded *
 superseded_of_session(Relation heap)
 {

@@ -1,12 +1,13 @@
 /*
  * by_hand.c: changes of a mesh that do not come from the table that it follows.
  *
- * A mesh that follows a table has the points of its rows. If it had others, a later change of the table
- * would not find its own, and the writer of the table would get the error. So points and attributes
- * are changed through the table alone. What the table does not give, as labels and markers, is free.
+ * A mesh that follows a table has the points of its rows. If it had others, a later change of the
+ * table would not find its own, and the writer of the table would get the error. So points and
+ * attributes are changed only through the table. Data that the table does not provide, such as
+ * labels and markers, may be changed.
  *
- * The change has locked the header by then, as abacus_track() does before it makes its triggers. So
- * either its triggers are seen here, or it sees what has been changed.
+ * By then the change has locked the header, as abacus_track() does before it makes its triggers. So
+ * either its triggers are visible here, or it sees the changes.
  */
 #include "postgres.h"
 
@@ -28,7 +29,7 @@ followed_table(Relation mesh)
 	{
 		const TrackingTrigger *trigger = lfirst(cell);
 
-		/* a partition that was detached keeps its auxiliary one */
+		/* a detached partition keeps its auxiliary trigger */
 		if (!trigger->auxiliary)
 			return get_rel_name(tracking_root(trigger->table));
 	}
@@ -55,7 +56,7 @@ by_hand_refuse_points(const Change *change)
 				 errhint("Change the table, and the mesh follows; or call abacus_untrack() first.")));
 }
 
-/* The same for functions that give points other attributes. */
+/* The same for functions that give points new attributes. */
 void
 by_hand_refuse_attributes(const Change *change)
 {

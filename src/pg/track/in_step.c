@@ -1,5 +1,5 @@
 /*
- * in_step.c: whether a mesh is what its triggers take it for.
+ * in_step.c: checks whether a mesh is what its triggers expect.
  */
 #include "postgres.h"
 
@@ -7,7 +7,7 @@
 #include "pg/postgis/geometry_errors.h"
 #include "pg/track/in_step.h"
 
-/* Whether points of the mesh have what the trigger gives, each attribute the one it was made for. */
+/* Whether the mesh has exactly the attributes for which the trigger was made. */
 void
 in_step_check_shape(const Change *change, ExpectedShape expected, const char *trigger)
 {
@@ -33,8 +33,8 @@ in_step_check_shape(const Change *change, ExpectedShape expected, const char *tr
 }
 
 /*
- * Whether geometries that have come are of the system of the mesh. If it has none it takes theirs; 0
- * and -1: they have none, or there were none.
+ * Whether the geometries read have the mesh's system. If it has none, it takes theirs. srid is 0 if
+ * they have none, -1 if there were no geometries.
  */
 void
 in_step_check_srid(Change *change, int32 srid)
@@ -46,7 +46,7 @@ in_step_check_srid(Change *change, int32 srid)
 	change_take_srid(change, srid);
 }
 
-/* Whether all points have been found that the table has changed; `what`: "delete" or "change". */
+/* Whether all points that the table changed were found; `what`: "delete" or "change". */
 void
 in_step_check_found(const Change *change, const char *table, const char *what, uint64 wanted,
 					uint64 found)

@@ -1,17 +1,17 @@
 /*
- * in_step.h: whether a mesh is what its triggers take it for.
+ * in_step.h: checks whether a mesh is what its triggers expect.
  */
 #ifndef ABACUS_IN_STEP_H
 #define ABACUS_IN_STEP_H
 
 #include "pg/mesh/change.h"
 
-/* What triggers take a mesh for. */
+/* The shape of a mesh that its triggers expect. */
 typedef struct ExpectedShape
 {
 	int			dimension;
 	int			columns;		/* of a point: id, coordinates, attributes */
-	uint32		dropped;		/* attributes that it has had and has no more */
+	uint32		dropped;		/* attributes of the mesh that were dropped */
 } ExpectedShape;
 
 extern void in_step_check_shape(const Change *change, ExpectedShape expected, const char *trigger);

@@ -1,14 +1,14 @@
 /*
- * pending.c: what meshes that follow their tables at commit have to catch up with.
+ * pending.c: the changes that meshes which follow at commit still have to make.
  *
- * Statements note the points that they have added and taken away in a log, one for each mesh.
- * Before the transaction commits, or is prepared, each mesh is changed once: first all new points
- * are inserted, then those that are gone are deleted, so every deleted point is there, old or new.
- * By then deferred constraints have been checked and deferred triggers have fired, so these may still
- * change tables. An error ends the transaction as one of theirs does. Meshes are changed in the
+ * Statements note the points that they have added and removed in a log, one for each mesh. Before
+ * the transaction commits, or is prepared, each mesh is changed once: first all new points are
+ * inserted, then those that are gone are deleted, so every deleted point is there, old or new. By
+ * then deferred constraints have been checked and deferred triggers have fired, so these may still
+ * change tables. An error ends the transaction like an error of theirs. Meshes are changed in the
  * order of their OIDs, and a transaction that has locked one of them no longer waits for rows.
  *
- * A rollback to a savepoint takes back what came since. When a nested transaction first changes the
+ * A rollback to a savepoint removes all later notes. When a nested transaction first changes the
  * notes of a mesh, it saves the state before; when it commits, it leaves this state to the one
  * around it, unless that has saved its own.
  *
@@ -28,10 +28,10 @@
 #include "pg/track/pending.h"
 #include "pg/track/point_log.h"
 
-/* Points that are read from the log at once. */
+/* Points read from the log at once. */
 #define POINTS_A_BATCH 1024
 
-/* What of a log counts. */
+/* The part of a log that counts. */
 typedef struct Extent
 {
 	uint64		start;			/* in bytes */
@@ -40,7 +40,7 @@ typedef struct Extent
 	uint64		went;
 } Extent;
 
-/* What a nested transaction has found. */
+/* The state that a nested transaction found. */
 typedef struct Saved
 {
 	SubTransactionId of;
@@ -50,11 +50,11 @@ typedef struct Saved
 struct Pending
 {
 	Oid			mesh;
-	Oid			user;			/* whose rights it is changed with */
-	char	   *table;			/* for messages, as is the trigger */
+	Oid			user;			/* whose rights are used to change it */
+	char	   *table;			/* for messages, like the trigger */
 	char	   *trigger;
 	ExpectedShape shape;		/* of the mesh */
-	uint32		srid;			/* of the mesh, or of geometries that have been noted; 0: none */
+	uint32		srid;			/* of the mesh, or of the noted geometries; 0: none */
 	PointLog   *log;
 	Extent		extent;
 	List	   *saved;			/* the innermost transaction's first */
@@ -89,7 +89,7 @@ srid_of_mesh(Oid mesh)
 /*
  * Raises an error now, and not at commit, if the mesh cannot be changed with the rights of this
  * user. It stays locked as by any writer. Otherwise DROP TABLE could lock it, and then wait for the
- * table, which we have locked. Returns the SRID of the mesh if that is wanted.
+ * table, which we have locked. Returns the SRID of the mesh if it is wanted.
  */
 static uint32
 check_mesh(Oid mesh, Oid user, bool wants_srid)
@@ -140,14 +140,14 @@ pending_open(Oid mesh, Oid user, const TriggerData *trigger, const Transition *t
 	return pending;
 }
 
-/* Of the mesh, or of the geometries that have been noted; 0: none, or not known. */
+/* The SRID of the mesh or of the noted geometries; 0: none or unknown. */
 uint32
 pending_srid(const Pending *pending)
 {
 	return pending->srid;
 }
 
-/* A mesh without SRID will take that of the geometries that have been noted; -1: of none. */
+/* A mesh without SRID will take that of the noted geometries; -1: there are none. */
 void
 pending_take_srid(Pending *pending, int32 srid)
 {
@@ -155,7 +155,7 @@ pending_take_srid(Pending *pending, int32 srid)
 		pending->srid = (uint32) srid;
 }
 
-/* Before the extent changes. */
+/* To be called before the extent changes. */
 static void
 save_extent(Pending *pending)
 {
@@ -174,7 +174,7 @@ save_extent(Pending *pending)
 	MemoryContextSwitchTo(old);
 }
 
-/* Notes points that have come, or that are gone. */
+/* Notes points that are new, or gone. */
 void
 pending_add(Pending *pending, bool gone, const uint64 *points, size_t count)
 {
@@ -263,7 +263,7 @@ change_mesh(Pending *pending)
 	change_end(change);
 }
 
-/* Changes the mesh by what is noted. */
+/* Applies the notes to the mesh. */
 static void
 catch_up(Pending *pending)
 {
@@ -275,7 +275,7 @@ catch_up(Pending *pending)
 
 	GetUserIdAndSecContext(&user, &security);
 	SetUserIdAndSecContext(pending->user, security | SECURITY_LOCAL_USERID_CHANGE);
-	/* it may have been dropped since, and has no need to follow then */
+	/* if it was dropped meanwhile, it need not follow */
 	if (SearchSysCacheExists1(RELOID, ObjectIdGetDatum(pending->mesh)))
 		change_mesh(pending);
 	SetUserIdAndSecContext(user, security);
@@ -284,7 +284,7 @@ catch_up(Pending *pending)
 	MemoryContextDelete(memory);
 }
 
-/* The mesh with the least OID that has something to catch up with; only `mesh`, if it is valid. */
+/* The mesh with the least OID that has notes; only `mesh`, if it is valid. */
 static Pending *
 next_behind(Oid mesh)
 {
@@ -320,7 +320,7 @@ close_all(void)
 
 static ProcessUtility_hook_type previous_hook = NULL;
 
-/* Whether meshes are changed by each statement, though they follow at commit. */
+/* Whether each statement changes the meshes, though they follow at commit. */
 bool
 pending_is_immediate(void)
 {
@@ -415,7 +415,7 @@ at_subtransaction_commit(SubTransactionId id, SubTransactionId parent)
 		if (pending->saved != NIL && ((Saved *) linitial(pending->saved))->of == id)
 		{
 			((Saved *) linitial(pending->saved))->of = parent;
-			/* what the parent has found is older */
+			/* the parent's saved state is older */
 			if (parent == TopSubTransactionId || (list_length(pending->saved) > 1 &&
 												  ((Saved *) lsecond(pending->saved))->of == parent))
 				pending->saved = list_delete_first(pending->saved);

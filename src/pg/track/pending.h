@@ -1,5 +1,5 @@
 /*
- * pending.h: what meshes that follow their tables at commit have to catch up with.
+ * pending.h: the changes that meshes which follow at commit still have to make.
  */
 #ifndef ABACUS_PENDING_H
 #define ABACUS_PENDING_H

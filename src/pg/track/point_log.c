@@ -1,9 +1,9 @@
 /*
- * point_log.c: points in the order in which they came, cut off again at any place.
+ * point_log.c: points in the order in which they came; it can be cut off at any place.
  *
- * As many points as a few statements bring are kept in memory; then all go to a temporary file.
- * The file belongs to the whole transaction, not to the nested one that happens to make it. The
- * caller knows where the log ends and writes there, over what a rollback to a savepoint has cut
+ * A few statements' points are kept in memory; beyond that, all go to a temporary file. The file
+ * belongs to the whole transaction, not to the nested one that happens to create it. The caller
+ * knows where the log ends and writes there, over the part that a rollback to a savepoint has cut
  * off.
  */
 #include "postgres.h"
@@ -65,14 +65,14 @@ move_to_file(PointLog *log, size_t size)
 static void
 go_to(PointLog *log, uint64 at)
 {
-	/* counted from the first of its segments, as it may be */
+	/* positions count from the first segment of the file, which is allowed */
 	if (log->place != at && BufFileSeek(log->file, 0, (off_t) at, SEEK_SET) != 0)
 		ereport(ERROR,
 				(errcode_for_file_access(), errmsg("could not seek in temporary file: %m")));
 	log->place = at;
 }
 
-/* Writes at a place up to which there are bytes. */
+/* Writes at a place; the bytes before it must exist. */
 void
 point_log_write(PointLog *log, uint64 at, const void *bytes, size_t size)
 {

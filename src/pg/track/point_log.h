@@ -1,5 +1,5 @@
 /*
- * point_log.h: points in the order in which they came, cut off again at any place.
+ * point_log.h: points in the order in which they came; it can be cut off at any place.
  */
 #ifndef ABACUS_POINT_LOG_H
 #define ABACUS_POINT_LOG_H

@@ -24,7 +24,7 @@ column_type(Relation table, const char *name)
 	return number <= 0 ? InvalidOid : TupleDescAttr(RelationGetDescr(table), number - 1)->atttypid;
 }
 
-/* The type of the geometry that some columns have in place of coordinates, InvalidOid if none. */
+/* The type of the geometry that some columns have instead of coordinates; InvalidOid if none. */
 static Oid
 geometry_of(Relation table, List *names)
 {
@@ -33,7 +33,7 @@ geometry_of(Relation table, List *names)
 	return OidIsValid(type) && geometry_is_type(type) ? type : InvalidOid;
 }
 
-/* How many columns have the place of a point. */
+/* The number of columns for the place of a point. */
 static int
 place_columns(Relation table, List *names, int dimension)
 {
@@ -59,7 +59,7 @@ given_names(ArrayType *given, const abacus_facts *facts, Relation table)
 	return names;
 }
 
-/* The one column of a table that is a geometry; NULL if there is none, or several. */
+/* The only column of a table that is a geometry; NULL if there is none, or several. */
 static char *
 only_geometry(Relation table)
 {
@@ -79,7 +79,7 @@ only_geometry(Relation table)
 	return found;
 }
 
-/* The names that the mesh has, and in a table without x its geometry. */
+/* The names in the mesh; for a table without x, its geometry replaces the coordinates. */
 static List *
 default_names(abacus_names mesh, Relation table)
 {
@@ -96,8 +96,8 @@ default_names(abacus_names mesh, Relation table)
 }
 
 /*
- * A column that is computed when it is read has no value in the rows that triggers get. That would be
- * taken for NULL, and the row for no point.
+ * A column that is computed when it is read has no value in the rows that triggers get. That would
+ * look like NULL, and the row would not count as a point.
  */
 void
 tracked_check_column(Relation table, AttrNumber number)
@@ -114,7 +114,7 @@ tracked_check_column(Relation table, AttrNumber number)
 						 "follows the table already.")));
 }
 
-/* Names of the columns of a point: as given, or as the mesh names its own. */
+/* The names of a point's columns: as given, or as in the mesh. */
 static List *
 column_names(ArrayType *given, abacus_names mesh, Relation table)
 {
@@ -138,7 +138,7 @@ column_names(ArrayType *given, abacus_names mesh, Relation table)
 	return names;
 }
 
-/* Refuses types that the triggers would refuse, before there are triggers. */
+/* Rejects types that the triggers would reject, before there are triggers. */
 static void
 check_types(List *columns, abacus_names mesh, Relation table)
 {
@@ -151,7 +151,7 @@ check_types(List *columns, abacus_names mesh, Relation table)
 	row_packer_create_tracked(point, mesh, 1);
 }
 
-/* Names of the columns of a point, which the table has, of types that can be read. */
+/* The names of a point's columns; the table must have them, with readable types. */
 List *
 tracked_columns(ArrayType *given, abacus_names mesh, Relation table)
 {
@@ -162,9 +162,9 @@ tracked_columns(ArrayType *given, abacus_names mesh, Relation table)
 }
 
 /*
- * A numeric as the row packer reads it (numeric_float8_no_overflow): numbers that round
- * to zero or infinity become that, where the cast would fail. Both bounds are exact:
- * half the least double, and the greatest double with half a step more.
+ * A numeric as the row packer reads it (numeric_float8_no_overflow): numbers that round to zero or
+ * infinity become that, where the cast would fail. Both bounds are exact: half the least double,
+ * and the greatest double plus half a step.
  */
 #define NUMERIC_AS_PACKED \
 	"CASE WHEN %1$s OPERATOR(pg_catalog.=) 'NaN'::pg_catalog.numeric THEN 'NaN'::pg_catalog.float8 " \
@@ -200,7 +200,7 @@ append_coordinates(StringInfo query, Oid type, const char *column, int dimension
 						 quote_identifier(column));
 }
 
-/* A column of a point as the mesh has it. */
+/* A column of a point as the mesh stores it. */
 static void
 append_packed(StringInfo query, Relation table, List *columns, int number, int dimension)
 {
@@ -242,8 +242,8 @@ select_points(Relation table, List *columns, int dimension, bool packed, const c
 }
 
 /*
- * SELECT of the points of the table, its partitions and children; `packed`: as the mesh has
- * them, an attribute NaN as NULL.
+ * SELECT of the points of the table, its partitions and children; `packed`: as the mesh stores
+ * them, with NULL for a NaN attribute.
  */
 char *
 tracked_points_of_table(Relation table, List *columns, int dimension, bool packed)
@@ -252,8 +252,8 @@ tracked_points_of_table(Relation table, List *columns, int dimension, bool packe
 }
 
 /*
- * SELECT of the points of the table whose geometries are of another system than the mesh; NULL if it
- * has no geometries.
+ * SELECT of the table's points whose geometries have another system than the mesh; NULL if the
+ * table has no geometries.
  */
 char *
 tracked_points_of_other_srid(Relation table, List *columns, const abacus_form *form)
@@ -268,7 +268,7 @@ tracked_points_of_other_srid(Relation table, List *columns, const abacus_form *f
 					form->srid);
 }
 
-/* SELECT of the points in the table alone. */
+/* SELECT of the points of this table only. */
 char *
 tracked_points_of_one_table(Relation table, List *columns, int dimension)
 {

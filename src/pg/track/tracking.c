@@ -3,23 +3,22 @@
  *
  * They are ordinary triggers of the table, four of them, one for each event, since a trigger with
  * transition tables can have only one event. A table with partitions has two: one for each row, and
- * one for TRUNCATE. Each of its partitions has an auxiliary trigger for TRUNCATE of the partition
- * alone. PostgreSQL itself makes a clone of the row trigger for each partition, and drops it when
+ * one for TRUNCATE. Each of its partitions has an auxiliary trigger for TRUNCATE of that partition
+ * only. PostgreSQL itself makes a clone of the row trigger for each partition, and drops it when
  * the partition is detached. A table with children, and each of its children, has one for each row
  * and an auxiliary one. The arguments of the triggers are the name of the mesh, its dimension, with
- * a word if it follows at commit, and the names of the columns. What counts is not the name but an
+ * a word if it follows at commit, and the names of the columns. The name does not count, only an
  * automatic dependency of the trigger on the mesh. So the mesh may be renamed and moved, and
  * dropping it drops the triggers.
  *
- * Only bound triggers run with the rights of the table's owner, since everybody who may
- * make a trigger can name any mesh.
+ * Only bound triggers run with the rights of the table's owner, since everyone who may make a
+ * trigger can name any mesh.
  *
- * A dump carries the triggers and their arguments, but not the dependency. In a
- * restored database the mesh is found by its name, with the rights of the user. All its
- * triggers are bound again when somebody with the rights of both owners first writes
- * the table, or changes the mesh so that its vertex table is bound. The name has no
- * schema if mesh and table lie in the same one, so that both can be restored into
- * another schema.
+ * A dump carries the triggers and their arguments, but not the dependency. In a restored database
+ * the mesh is found by its name, with the rights of the user. All its triggers are bound again when
+ * someone with the rights of both owners first writes the table, or changes the mesh so that its
+ * vertex table is bound. The name has no schema if mesh and table are in the same one, so that both
+ * can be restored into another schema.
  */
 #include "postgres.h"
 
@@ -47,7 +46,7 @@
 #include "pg/port/port.h"
 #include "pg/track/tracking.h"
 
-/* The function TRACKING_FUNCTION of the extension; InvalidOid if it has none. */
+/* The function TRACKING_FUNCTION of the extension; InvalidOid if it is missing. */
 Oid
 tracking_function(Oid extension_namespace)
 {
@@ -58,9 +57,8 @@ tracking_function(Oid extension_namespace)
 }
 
 /*
- * The mesh of this name, which without a schema is one of `namespace`. Another user
- * than the caller may have written the name. So nothing is an error, and no privilege
- * is asked for.
+ * The mesh of this name; without a schema, the one in `namespace`. Another user than the caller may
+ * have written the name. So nothing is an error, and no privilege is needed.
  */
 static Oid
 mesh_by_name(const char *name, Oid namespace)
@@ -93,7 +91,7 @@ bound_mesh(Oid trigger, Oid table, Oid from)
 	return mesh == table ? InvalidOid : mesh;
 }
 
-/* The parent of a table, the first one if there are several; InvalidOid if there is none. */
+/* The parent of a table, the first if there are several; InvalidOid if there is none. */
 static Oid
 parent_of(Oid table)
 {
@@ -122,7 +120,7 @@ tracking_root(Oid table)
 	return OidIsValid(parent) ? tracking_root(parent) : table;
 }
 
-/* The first argument of a trigger, as it stands in the catalogue. */
+/* The first argument of a trigger, from the catalogue. */
 static const char *
 first_argument(HeapTuple tuple, Relation triggers)
 {
@@ -133,7 +131,7 @@ first_argument(HeapTuple tuple, Relation triggers)
 	return VARDATA_ANY(DatumGetByteaPP(arguments));
 }
 
-/* A trigger from the catalogue; NULL if it has gone, or is a clone. */
+/* A trigger from the catalogue; NULL if it no longer exists, or is a clone. */
 static TrackingTrigger *
 read_trigger(Oid oid)
 {
@@ -169,23 +167,22 @@ read_trigger(Oid oid)
 	return trigger;
 }
 
-/* Whether the trigger counts as one of the mesh; `table` is that of tracking_triggers(). */
+/* Whether the trigger belongs to the mesh; `table` is that of tracking_triggers(). */
 static bool
 belongs(const TrackingTrigger *trigger, Oid mesh, Oid table)
 {
 	if (trigger == NULL || trigger->mesh != mesh)
 		return false;
-	/* what others write into the triggers of their tables must not disturb anybody */
+	/* triggers that others make on their own tables must not disturb anyone */
 	return trigger->bound || trigger->table == table ||
 		(OidIsValid(table) && tracking_root(trigger->table) == table) ||
 		mesh_table_owner(trigger->table) == mesh_table_owner(mesh);
 }
 
 /*
- * The triggers that call the function, TRACKING_FUNCTION, for this mesh: those bound to
- * it, and some that only name it. Only these count: the triggers of `table` (which may be
- * InvalidOid), of its partitions and children, and of tables that the mesh's owner
- * owns.
+ * The triggers that call the function, TRACKING_FUNCTION, for this mesh: those bound to it, and
+ * some that only name it. Of the latter only these count: the triggers of `table` (which may be
+ * InvalidOid), of its partitions and children, and of tables that the mesh's owner owns.
  */
 List *
 tracking_triggers(Oid function, Oid mesh, Oid table)
@@ -233,7 +230,10 @@ only_table(List *triggers)
 	return table;
 }
 
-/* Binds all triggers of the table, and its children, that name the mesh, if the user may; returns whether he may. */
+/*
+ * Binds all triggers of the table and its children that name the mesh, if the user may; returns
+ * whether he may.
+ */
 static bool
 bind_triggers(Oid function, Oid mesh, Oid table)
 {
@@ -264,9 +264,8 @@ bind_triggers(Oid function, Oid mesh, Oid table)
 }
 
 /*
- * After a restore: binds the triggers of the mesh, if there is no doubt which table it
- * follows. It waits for nobody. Triggers that are not bound here are bound by the first
- * write of the table.
+ * After a restore: binds the triggers of the mesh, if there is no doubt which table it follows. It
+ * never waits. Triggers that are not bound here are bound by the first write of the table.
  */
 void
 tracking_bind_restored(Relation mesh)
@@ -283,8 +282,7 @@ tracking_bind_restored(Relation mesh)
 }
 
 /*
- * A user who may not use the schema of a mesh does not reach it through a trigger that
- * is not bound.
+ * A user who may not use the schema of a mesh cannot reach it through a trigger that is not bound.
  */
 static void
 check_schema(Oid mesh, Oid table)
@@ -307,7 +305,9 @@ typedef struct FiringTrigger
 	Oid			from;			/* as bound_mesh() takes it */
 } FiringTrigger;
 
-/* Reads a trigger from the catalogue; returns its original if it is a clone, else InvalidOid. */
+/*
+ * Reads a trigger from the catalogue; returns its original if it is a clone, otherwise InvalidOid.
+ */
 static Oid
 read_firing(Oid oid, FiringTrigger *trigger)
 {
@@ -334,7 +334,7 @@ read_firing(Oid oid, FiringTrigger *trigger)
 	return original;
 }
 
-/* The trigger that counts for a trigger of a table: itself, or its original if it is a clone. */
+/* The trigger that counts for a table's trigger: itself, or its original if it is a clone. */
 static FiringTrigger
 original_trigger(const Trigger *trigger, Oid table)
 {
@@ -347,10 +347,9 @@ original_trigger(const Trigger *trigger, Oid table)
 }
 
 /*
- * The mesh that a trigger, now firing, keeps in step with its table, and the user with
- * whose rights it is changed. For the mesh of a trigger that abacus_track() has made
- * this is the table's owner. Otherwise a user has named the mesh, and has no rights but
- * his own.
+ * The mesh that a trigger, now firing, keeps in step with its table, and the user with whose rights
+ * it is changed. For the mesh of a trigger made by abacus_track(), this is the table's owner.
+ * Otherwise a user has named the mesh, and has only his own rights.
  */
 Oid
 tracking_mesh(const TriggerData *data, Oid *user)

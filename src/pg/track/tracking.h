@@ -17,19 +17,19 @@ typedef struct TrackingTrigger
 	char	   *name;
 	Oid			table;
 	Oid			mesh;			/* InvalidOid: not found */
-	bool		bound;			/* to the mesh, which otherwise is known by name alone */
+	bool		bound;			/* to the mesh; otherwise only its name is known */
 	int16		event;			/* TRIGGER_TYPE_..., one or several */
-	bool		auxiliary;		/* on a partition or child: tells that it is truncated */
+	bool		auxiliary;		/* on a partition or child: reports its truncation */
 	char		fires;			/* as pg_trigger.tgenabled says */
 } TrackingTrigger;
 
-/* What all triggers of a mesh call. */
+/* The function and arguments that all triggers of a mesh share. */
 typedef struct TriggerCall
 {
 	Oid			function;
 	Oid			mesh;
 	int			dimension;
-	uint32		dropped;		/* attributes that the mesh had and has no more */
+	uint32		dropped;		/* attributes of the mesh that were dropped */
 	bool		deferred;
 	List	   *columns;
 	List	   *former;			/* TrackingTriggers that these replace */

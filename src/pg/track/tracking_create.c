@@ -1,5 +1,5 @@
 /*
- * tracking_create.c: the triggers by which a mesh follows a table are made and dropped.
+ * tracking_create.c: makes and drops the triggers by which a mesh follows a table.
  *
  * It uses CREATE TRIGGER and DROP TRIGGER, as the caller, with all their checks. The essay in
  * tracking.c describes the triggers.
@@ -24,10 +24,9 @@
 #include "pg/track/transition.h"
 
 /*
- * A name for a trigger that no other trigger of the table has. Triggers fire in the order
- * of their names. The meshes that follow a table must come in the same order for all
- * events, or an INSERT could wait for a DELETE that waits for it. So the mesh comes last
- * in the name.
+ * A name for a trigger that no other trigger of the table has. Triggers fire in the order of their
+ * names. The meshes that follow a table must come in the same order for all events, or an INSERT
+ * and a DELETE could wait for each other. So the mesh comes last in the name.
  */
 static char *
 choose_name(Oid mesh, Oid table, const char *event)
@@ -61,8 +60,8 @@ arguments(const TriggerCall *call, Relation table)
 }
 
 /*
- * Makes a trigger fire where its table is written as a replica, always or only there, if the
- * former trigger of its event did.
+ * Makes a trigger fire where its table is written as a replica, always or only there, if the former
+ * trigger for its event did.
  */
 static void
 fire_as_before(Relation table, const char *name, int16 event, List *former)
@@ -81,7 +80,7 @@ fire_as_before(Relation table, const char *name, int16 event, List *former)
 	}
 }
 
-/* What a trigger is like. */
+/* The properties of a trigger. */
 typedef struct TriggerKind
 {
 	const char *name;
@@ -101,7 +100,7 @@ static const TriggerKind of_plain_table[] = {
 	{"truncate", TRIGGER_TYPE_TRUNCATE, "AFTER TRUNCATE", EACH_STATEMENT}
 };
 
-/* PostgreSQL gives the partitions that there are, and will be, the first. */
+/* PostgreSQL adds the first one to present and future partitions. */
 static const TriggerKind of_partitioned_table[] = {
 	{"rows", TRIGGER_TYPE_INSERT | TRIGGER_TYPE_UPDATE | TRIGGER_TYPE_DELETE,
 		"AFTER INSERT OR UPDATE OR DELETE", EACH_ROW},
@@ -139,7 +138,7 @@ create_triggers(const TriggerCall *call, Relation table, const TriggerKind *kind
 	}
 }
 
-/* The triggers of a table with partitions or children, and of these. */
+/* Makes the triggers of a table with partitions or children, and of these. */
 static void
 create_in_family(const TriggerCall *call, Relation root, List *family)
 {
@@ -161,9 +160,9 @@ create_in_family(const TriggerCall *call, Relation root, List *family)
 }
 
 /*
- * Makes the triggers, as the caller, through CREATE TRIGGER with all its checks. They fire
- * as the former ones did, but where the former ones were disabled, these are enabled.
- * Partitions and children are locked as the table is.
+ * Makes the triggers, as the caller, through CREATE TRIGGER with all its checks. They fire as the
+ * former ones did, but if the former ones were disabled, these are enabled. Partitions and children
+ * are locked like the table.
  */
 void
 tracking_create(const TriggerCall *call, Relation table)
@@ -177,8 +176,8 @@ tracking_create(const TriggerCall *call, Relation table)
 }
 
 /*
- * A caller that has not locked the table may find it gone, and the trigger with it. The owner of the
- * mesh may drop a trigger of another one's table that is bound to it, as he does with the mesh itself.
+ * If the caller has not locked the table, it may be gone, and the trigger with it. The owner of the
+ * mesh may drop a bound trigger of another owner's table, as happens when he drops the mesh.
  */
 void
 tracking_drop(const TrackingTrigger *trigger)

@@ -1,16 +1,16 @@
 /*
  * transition.c: the points in the transition tables of a trigger.
  *
- * An UPDATE has two of them, rows as they were and as they are; rows of the same number
- * are those of one row of the table. Where they give the same point there is nothing to
- * do. No other rows are compared, and no sort is needed: taking equal rows out of two
- * lists, one for one, leaves the same difference whichever pairs are found.
+ * An UPDATE has two of them, the old rows and the new rows; rows with the same position belong to
+ * the same row of the table. If they give the same point, there is nothing to do. No other rows are
+ * compared, and no sort is needed: removing equal rows from two lists, one for one, leaves the same
+ * difference whichever pairs are found.
  *
- * Rows with a NULL among the coordinates are not points. They become points when they
- * get coordinates, and cease to be points when they lose them.
+ * Rows with a NULL among the coordinates are not points. They become points when they get
+ * coordinates, and stop being points when they lose them.
  *
- * The rows are read straight out of the tuplestores. That costs less than planning a
- * query on them, so a statement that changes one row is quick.
+ * The rows are read directly from the tuplestores. That costs less than planning a query on them,
+ * so a statement that changes one row is quick.
  */
 #include "postgres.h"
 
@@ -29,7 +29,7 @@
 
 #define POINTS_A_BATCH 1024
 
-/* Goes past a word if the text begins with it. */
+/* Skips a word if the text begins with it. */
 static bool
 skip(char **text, const char *word)
 {
@@ -40,8 +40,8 @@ skip(char **text, const char *word)
 }
 
 /*
- * The dimension, how the mesh follows, and how many attributes it had lost; 0: arguments are whatever
- * the creator of the trigger wrote.
+ * The dimension, how the mesh follows, and how many of its attributes had been dropped; 0 if the
+ * argument is not valid, since the creator of the trigger may have written anything.
  */
 static int
 read_dimension(char *argument, bool *deferred, uint32 *dropped)
@@ -58,14 +58,14 @@ read_dimension(char *argument, bool *deferred, uint32 *dropped)
 		dimension <= ABACUS_MAX_DIMENSION ? (int) dimension : 0;
 }
 
-/* What the trigger takes the mesh for. */
+/* The shape of the mesh that the trigger expects. */
 ExpectedShape
 transition_expected(const Transition *transition)
 {
 	return (ExpectedShape) {transition->dimension, transition->columns, transition->dropped};
 }
 
-/* The same as points have it. */
+/* The same in the form for points. */
 abacus_names
 transition_shape(const Transition *transition)
 {
@@ -89,7 +89,7 @@ open_rows(TransitionRows *rows, Tuplestorestate *store, TupleDesc desc)
 	rows->counts = false;
 	if (store == NULL)
 		return;
-	/* a place of our own: other triggers read the same rows */
+	/* a read pointer of our own: other triggers read the same rows */
 	rows->pointer = tuplestore_alloc_read_pointer(store, EXEC_FLAG_REWIND);
 	rows->slot = MakeSingleTupleTableSlot(desc, &TTSOpsMinimalTuple);
 }
@@ -103,7 +103,7 @@ rewind_rows(TransitionRows *rows)
 	tuplestore_rescan(rows->rows);
 }
 
-/* The next row into the slot; false at the end. */
+/* Puts the next row into the slot; false at the end. */
 static bool
 fetch_row(TransitionRows *rows)
 {
@@ -185,7 +185,7 @@ is_point(const Transition *transition, TupleTableSlot *slot)
 	return true;
 }
 
-/* Whether the rows agree in the first columns of a point: all, or id and place. */
+/* Whether the rows agree in the first columns of a point: in all, or in id and place. */
 static bool
 agree(const Transition *transition, int columns)
 {
@@ -210,7 +210,7 @@ is_same_point(const Transition *transition)
 	return agree(transition, transition->inputs);
 }
 
-/* Goes on to the next rows; false at the end of both tables. */
+/* Goes to the next rows; false at the end of both tables. */
 static bool
 advance(Transition *transition)
 {
@@ -238,7 +238,7 @@ transition_changes(Transition *transition)
 	return false;
 }
 
-/* Whether the statement has changed attributes alone: each point stays, with its id. */
+/* Whether the statement has changed only attributes: each point stays, with its id. */
 bool
 transition_revises(Transition *transition)
 {
@@ -257,7 +257,7 @@ transition_revises(Transition *transition)
 	return true;
 }
 
-/* Has room for so many points that are packed. */
+/* Makes room for this many packed points. */
 static void
 open_packer(Transition *transition, size_t batch)
 {
@@ -266,14 +266,14 @@ open_packer(Transition *transition, size_t batch)
 													   transition_shape(transition), batch);
 }
 
-/* The SRID of the geometries that have been sent on; -1 if there were none. */
+/* The SRID of the geometries passed on; -1 if there were none. */
 int32
 transition_srid(const Transition *transition)
 {
 	return transition->packer == NULL ? -1 : transition->packer->srid;
 }
 
-/* The point of a row to the packer. */
+/* Passes the point of a row to the packer. */
 static void
 pack(const Transition *transition, TupleTableSlot *row)
 {
@@ -287,7 +287,7 @@ pack(const Transition *transition, TupleTableSlot *row)
 	packer->receiver.receiveSlot(point, &packer->receiver);
 }
 
-/* Sends on the points that are new, or those that are gone; returns how many. */
+/* Passes on the points that are new, or those that are gone; returns how many. */
 uint64
 transition_send(Transition *transition, bool new, PointSink sink, void *context)
 {
@@ -317,7 +317,7 @@ transition_send(Transition *transition, bool new, PointSink sink, void *context)
 	return sent;
 }
 
-/* Leaves of the pairs of points that are packed, as they are and as they were, one record each. */
+/* Merges the pairs of packed points, new and old, into one record each. */
 static void
 join_pairs(const Transition *transition)
 {
@@ -349,8 +349,8 @@ flush_revisions(const Transition *transition, PointSink sink, void *context)
 }
 
 /*
- * Sends on the points that are new, each with the attributes that it had behind those that it has;
- * returns how many. The statement is one that transition_revises().
+ * Passes on the new points, each with its old attributes after the new ones; returns how many. Only
+ * for a statement for which transition_revises() is true.
  */
 uint64
 transition_send_revisions(Transition *transition, PointSink sink, void *context)
@@ -375,8 +375,8 @@ transition_send_revisions(Transition *transition, PointSink sink, void *context)
 }
 
 /*
- * Makes ready for a trigger that is called for each row. What is needed from row to row lives in the
- * current memory context: the one in which the trigger is called is emptied after each row.
+ * Prepares for a trigger that is called for each row. Data needed from row to row are in the
+ * current memory context, since the context of the trigger's call is emptied after each row.
  */
 void
 transition_open_rows(Transition *transition, uint32 srid)
@@ -386,8 +386,8 @@ transition_open_rows(Transition *transition, uint32 srid)
 }
 
 /*
- * Sends on the point of the row with which a trigger for each row is called, if it counts. The
- * transition is one that transition_open_rows() has made ready.
+ * Passes on the point of the row for which a trigger for each row is called, if it counts.
+ * transition_open_rows() must have prepared the transition.
  */
 void
 transition_send_row(Transition *transition, const TriggerData *trigger, bool new, PointSink sink,

@@ -1,6 +1,6 @@
 /*
- * transition.h: the points that a statement has added and taken away, in the transition tables
- * of its trigger; or, of a trigger for each row, in its rows.
+ * transition.h: the points that a statement has added and removed, from the transition tables of
+ * its trigger, or from the rows of a trigger for each row.
  */
 #ifndef ABACUS_TRANSITION_H
 #define ABACUS_TRANSITION_H
@@ -13,10 +13,10 @@
 /* A transition table while it is read, or a row. */
 typedef struct TransitionRows
 {
-	Tuplestorestate *rows;		/* NULL: the event has none, or the slot is given */
+	Tuplestorestate *rows;		/* NULL: the event has none, or the slot is set */
 	int			pointer;
 	TupleTableSlot *slot;
-	bool		counts;			/* the row in the slot is a point to be added, or taken away */
+	bool		counts;			/* the row in the slot is a point to add or remove */
 } TransitionRows;
 
 typedef struct Transition
@@ -24,24 +24,25 @@ typedef struct Transition
 	TransitionRows old;
 	TransitionRows new;
 	int			columns;		/* of a point: id, coordinates, attributes */
-	int			inputs;			/* ... in the table: a geometry stands for all coordinates */
+	int			inputs;			/* ... in the table: a geometry replaces all coordinates */
 	int			dimension;
-	uint32		srid;			/* of the mesh, for geometries; 0: it has none, or is not known yet */
+	uint32		srid;			/* of the mesh, for geometries; 0: none, or not known yet */
 	bool		deferred;		/* the mesh follows at commit */
-	uint32		dropped;		/* attributes that the mesh had lost when the trigger was made */
+	uint32		dropped;		/* attributes that had been dropped when the trigger was made */
 	char	  **names;			/* of the columns of points */
 	AttrNumber *numbers;		/* of these columns, in the table */
-	TupleDesc	points;			/* what a point's row looks like */
+	TupleDesc	points;			/* the row type of a point */
 	TupleTableSlot *point;
 	RowPacker  *packer;
 } Transition;
 
-/* Takes points. */
+/* Receives points. */
 typedef void (*PointSink) (void *context, const uint64 *points, size_t count);
 
 /*
- * Arguments of the trigger: name of the mesh, its dimension (how it follows, and how many attributes had
- * been dropped, if any: the columns are those of the others), columns of a point.
+ * Arguments of the trigger: name of the mesh, its dimension (followed by how it follows, and how
+ * many attributes had been dropped, if any: the columns are those of the others), columns of a
+ * point.
  */
 #define TRACKING_ARGUMENT_DIMENSION 1
 #define TRACKING_DEFERRED " deferred"

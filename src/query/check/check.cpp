@@ -25,9 +25,9 @@ Check<D>::Check(const Host &host, const abacus_facts &facts, std::size_t cache_b
                     "The header counts more or fewer simplices than the pages hold.");
     const std::size_t before = faults_.size();
     check_links_and_points(together ? &*together : nullptr);
-    // Two pages that differ about a vertex are found where the cache has both. In a Delaunay mesh
-    // it has them at some time: all pages around a vertex are loaded together. In another one it
-    // may not, and what is found otherwise is reported as if it had been looked for alone.
+    // If two pages differ about a vertex, the cache finds that while it has both. In a Delaunay
+    // mesh it has both at some time, since all pages around a vertex are loaded together. In other
+    // meshes it may not, so faults found by several threads are reported as one thread finds them.
     if (together && !abacus_is_delaunay(facts.standing) && faults_.size() > before) {
         faults_.shorten(before);
         check_links_and_points(nullptr);
@@ -46,8 +46,8 @@ Check<D>::Check(const Host &host, const abacus_facts &facts, std::size_t cache_b
 }
 
 template <int D> void Check<D>::check_links_and_points(Together *together) {
-    // A mesh with broken pages has no topology to speak of. Where only checksums and boxes are
-    // wrong, the other passes may tell what has been changed.
+    // A mesh with broken pages has no usable topology. If only checksums and boxes are wrong, the
+    // other passes may show what was changed.
     const auto is_sound = [&] { return faults_.is_sound(); };
     if (is_sound() && pages_ > 0 && (together == nullptr || !together->check_topology()))
         faults_.run("link", [&] { check_topology(); });
@@ -60,8 +60,8 @@ template <int D> void Check<D>::check_links_and_points(Together *together) {
 }
 
 template <int D> void Check<D>::report(std::uint64_t pages, unsigned threads) {
-    // Every page is read twice, once more to look for attributes that are apart and for labels,
-    // twice for markers; how many there are is known after the first time.
+    // Every page is read twice, once more for attributes that are apart and for labels, and twice
+    // more for markers. The number of pages is known after the first pass.
     const std::uint64_t passes = 2 + (facts_.columns.apart != 0 ? 1 : 0) +
                                  (facts_.census.labelled > 0 ? 1 : 0) +
                                  (facts_.census.marked > 0 ? 2 : 0);
@@ -69,7 +69,7 @@ template <int D> void Check<D>::report(std::uint64_t pages, unsigned threads) {
     host_.progress({ABACUS_PHASE_CHECKING, pages, total, pages, 0, threads});
 }
 
-/// What need not hold of a header that can be read; the rest capi/header.cpp has seen to.
+/// Checks the facts of a readable header that need not hold; capi/header.cpp has checked the rest.
 template <int D> void Check<D>::check_header() {
     const abacus_facts &h = facts_;
     if (D == 2 && h.census.simplices > 0 && abacus_is_delaunay(h.standing) &&
@@ -79,7 +79,7 @@ template <int D> void Check<D>::check_header() {
 
 template <int D> void Check<D>::check_pages() {
     Key expected = first_key;
-    bool is_expecting = true; // not after a page that tells nothing
+    bool is_expecting = true; // not after an unreadable page
     PageCheck<D> check(domain_, faults_);
     PageScan<D> scan(host_, facts_);
     pages_ = 0;
@@ -135,8 +135,8 @@ template <int D> void Check<D>::check_repeated_points() {
                     "The header counts more or fewer repeated points than there are.");
 }
 
-/// A reader goes from a page to the one with the next point; who begins with a point further on
-/// might come to another one that lies between them.
+/// A reader goes from a page to the one with the next point. A page between them would mislead a
+/// reader that begins with a later point.
 template <int D> void Check<D>::check_follows(const Key &last, const Key &at) {
     abacus_page page;
     if (at == last || !host_.next(ABACUS_STAGED_PAGES, &last, page) || page.key == at) return;
@@ -169,8 +169,8 @@ template <int D> void Check<D>::check_listed_vertices() {
     VertexReader<D> list(host_, static_cast<unsigned>(page_attributes(facts_.columns)), 0,
                          facts_.census.staged);
     std::uint64_t in_pages = 0;
-    // Along the curve, those of one code by their coordinates as words, those at one place by their
-    // ids: so abacus_load sorts.
+    // In the order of abacus_load: along the curve; with equal codes by their coordinates as words;
+    // at one place by their ids.
     std::array<std::uint64_t, 1 + D> place{}, previous{};
     std::int64_t previous_id = 0;
     std::uint64_t split = 0, at_place = 0;
@@ -227,7 +227,7 @@ void Check<D>::check_attribute_pages(const char *kind, unsigned attributes, std:
                                : "The pages have more or fewer simplices than the header counts.");
 }
 
-/// There are as many vertices with attributes as vertices; so it is enough that each of these has
+/// There are as many vertices with attributes as vertices, so it is enough that each vertex has
 /// some.
 template <int D> void Check<D>::check_attributes() {
     AttributeReader<D> attributes(host_, domain_, facts_.columns.attributes, cache_bytes_ / 2);
@@ -247,7 +247,8 @@ template <int D> void Check<D>::check_attributes() {
     }
 }
 
-/// There are as many simplices as rows; so none is of another simplex if the mesh has all of those.
+/// A simplex has at most one row. So if as many simplices have rows as there are rows, every row
+/// belongs to a simplex of the mesh.
 template <int D>
 void Check<D>::check_labels(const char *kind, unsigned columns, std::uint64_t owners,
                             unsigned first) {
@@ -269,8 +270,8 @@ void Check<D>::check_labels(const char *kind, unsigned columns, std::uint64_t ow
     });
 }
 
-/// A facet has the same marker on both sides, or is one of the boundary: a ghost is beyond it. The
-/// two sides of a fault are both of the boundary, and have markers of their own.
+/// A facet has the same marker on both sides, or lies on the boundary: a ghost is beyond it. The
+/// two sides of a fault both lie on the boundary, and have markers of their own.
 template <int D> void Check<D>::check_markers() {
     constexpr std::size_t key_words = 2 + D * D; // key, coordinates; then the marker
     RecordSort sides(host_, key_words + 1, key_words, cache_bytes_ / 4);
@@ -299,7 +300,7 @@ template <int D> void Check<D>::check_markers() {
     });
     sides.finish();
     std::array<std::uint64_t, key_words + 1> first{};
-    std::uint64_t ghosts = 0, marked = 0; // with the facet of the first
+    std::uint64_t ghosts = 0, marked = 0; // at the facet of the first
     bool agree = true;
     const auto end_facet = [&] {
         const std::uint64_t sides_of_boundary = facts_.census.split > 0 && ghosts == 2 ? 2 : 1;

@@ -4,11 +4,11 @@ namespace abacus {
 
 namespace {
 
-/// Simplices that are worth the threads.
+/// From this number of simplices on, a mesh is worth the threads.
 constexpr std::uint64_t simplices_worth_sharing = 1 << 16;
-/// Batches of pages in memory for each thread: one at work, one that waits.
+/// Batches of pages in memory for each thread: one in work, one waiting.
 constexpr std::size_t batches_a_thread = 2;
-/// Parts of the curve for each thread, so that none waits long for the last one.
+/// Parts of the curve for each thread, so that no thread waits long for the last one.
 constexpr std::size_t parts_a_thread = 4;
 
 } // namespace
@@ -26,7 +26,7 @@ Check<D>::Together::Together(Check &check)
       feed_(check.host_, check.host_.threads() * batches_a_thread,
             check.host_.has_tiny_intervals() ? 1 : PageFeed::Batch::most) {}
 
-/// What both passes have in common.
+/// The common part of both passes.
 template <int D> class Check<D>::Together::Pass : public Crew::Work {
 public:
     Pass(Together &together, std::uint64_t pages_before)
@@ -46,7 +46,7 @@ protected:
 
     Check &check() const { return together_.check_; }
     const PageFeed &feed() const { return together_.feed_; }
-    /// Counts pages; returns whether to go on.
+    /// Counts pages; returns whether to continue.
     bool looked_at(std::uint64_t pages, const FaultList &faults) {
         pages_.fetch_add(pages, std::memory_order_relaxed);
         if (faults.size() > 0) has_fault_.store(true, std::memory_order_relaxed);
@@ -114,7 +114,7 @@ template <int D> bool Check<D>::Together::check_pages() {
     const bool has_run = crew_.run(threads, threads, pass);
     feed_.end();
     if (!has_run || pass.has_fault()) return false;
-    // That the first page begins with the curve no thread has seen.
+    // No thread has checked that the first page begins with the curve.
     if (pass.pages() > 0 && !(feed_.first() == first_key)) return false;
     check_.counts_ = pass.counts();
     check_.pages_ = pass.pages();
@@ -146,7 +146,7 @@ public:
     }
 
 private:
-    /// Of a thread.
+    /// The links of a thread.
     struct Links {
         Links(const Host &host, const Check &all, unsigned threads)
             : faults(host, 1), check(host, all.facts_, all.cache_bytes_ / threads, faults) {}

@@ -10,7 +10,8 @@ namespace abacus {
 
 namespace {
 
-/// How far x, which is between them, is from a to b; not equal, both finite.
+/// The share of the way from a to b at x, which lies between them; a and b are finite and not
+/// equal.
 double share(double a, double b, double x) {
     const double whole = b - a;
     return std::isfinite(whole) ? (x - a) / whole : (x / 2 - a / 2) / (b / 2 - a / 2);
@@ -35,7 +36,7 @@ ContourEdge::ContourEdge(const ContourPoint &p, double value_p, const ContourPoi
     std::swap(value_a, value_b);
 }
 
-// std::lerp is exact at both ends, and never goes back between them.
+// std::lerp is exact at both ends, and monotonic between them.
 Point<2> ContourEdge::crossing(double level) const {
     const double t = share(value_a, value_b, level);
     return {std::lerp((*a)[0], (*b)[0], t), std::lerp((*a)[1], (*b)[1], t)};
@@ -49,7 +50,7 @@ ContourCorner meet(const ContourEdge &edge, int side, const ContourWindow &windo
     ContourCorner corner;
     corner.place[axis] = bound;
     corner.place[other] = std::lerp((*edge.a)[other], (*edge.b)[other], t);
-    // Sides of x come first; what is beyond them now is rounding.
+    // Sides of x come first; anything still beyond them is rounding.
     if (other == 0) corner.place[0] = std::clamp(corner.place[0], window.bound(0), window.bound(1));
     corner.value = std::lerp(edge.value_a, edge.value_b, t);
     corner.rank = levels.rank(corner.value);
@@ -116,7 +117,7 @@ void ContourCut::clip(int side) {
     size_ = n;
 }
 
-/// Where one side ends at another, in the triangle.
+/// The corner in the triangle where one side meets another.
 ContourCorner ContourCut::window_corner(int side, int other) const {
     ContourCorner corner;
     corner.place[ContourWindow::axis(side)] = window_.bound(side);
@@ -132,7 +133,7 @@ ContourCorner ContourCut::window_corner(int side, int other) const {
     return corner;
 }
 
-/// Where the line from corner i crosses a level.
+/// The point where the line from corner i crosses a level.
 ContourEnd ContourCut::end(int i, std::int64_t level, ContourKind kind) const {
     const int line = polygon_[i].line;
     if (line < 3) {
@@ -144,7 +145,7 @@ ContourEnd ContourCut::end(int i, std::int64_t level, ContourKind kind) const {
     else
         kind = ContourKind::crossing_at_side +
                (4 * (line - 3) + 2 * (polygon_[i].rank < level) + (kind == ContourKind::upper));
-    // One edge of the triangle in its direction stands for the triangle.
+    // One edge of the triangle, in its direction, stands for the triangle.
     int least = 0;
     for (int k = 1; k < 3; ++k)
         if (*corners_[k] < *corners_[least]) least = k;
@@ -152,7 +153,7 @@ ContourEnd ContourCut::end(int i, std::int64_t level, ContourKind kind) const {
 }
 
 Point<2> ContourCut::crossing_at_side(int i, std::int64_t level) const {
-    std::array<Point<2>, 2> ends; // of the contour in all of the triangle
+    std::array<Point<2>, 2> ends; // of the contour in the whole triangle
     int n = 0;
     for (int k = 0; k < 3 && n < 2; ++k)
         if ((ranks_[k] < level) != (ranks_[(k + 1) % 3] < level))
@@ -162,7 +163,7 @@ Point<2> ContourCut::crossing_at_side(int i, std::int64_t level) const {
     const double from = polygon_[i].place[other], to = next(i).place[other];
     Point<2> p;
     p[axis] = window_.bound(side);
-    p[other] = ends[0][other]; // of a contour along the side, or of a single point
+    p[other] = ends[0][other]; // for a contour along the side, or a single point
     if (ends[0][axis] != ends[1][axis])
         p[other] =
             std::lerp(ends[0][other], ends[1][other], share(ends[0][axis], ends[1][axis], p[axis]));

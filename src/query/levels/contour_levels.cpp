@@ -26,7 +26,7 @@ void ContourLevels::include(const ContourRanks &ranks) {
 std::int64_t ContourLevels::multiple_below(double value) const {
     const double quotient = std::floor((value - how_.base) / how_.interval);
     if (std::abs(quotient) < 0x1p52) {
-        // Rounding may have led to the one before or behind.
+        // Rounding may have led to the level before or after.
         const auto near = static_cast<std::int64_t>(quotient);
         for (std::int64_t rank = near + 1; rank >= near - 1; --rank)
             if (level(rank) <= value && value < level(rank + 1)) return rank;

@@ -18,7 +18,7 @@ constexpr std::int64_t level_of(std::uint64_t word) {
     return static_cast<std::int64_t>(word ^ std::uint64_t{1} << 63);
 }
 
-/// Points in a row that are equal are one.
+/// A path; equal consecutive points count as one.
 class Path {
 public:
     explicit Path(Arena<Point<2>> &points) : points_(points) { points.clear(); }
@@ -30,11 +30,12 @@ private:
     Arena<Point<2>> &points_;
 };
 
-/// Begins a closed path where it is lexicographically least; the first point is not repeated.
+/// Rotates a closed path so that it begins where it is lexicographically least; the first point is
+/// not repeated.
 void rotate_to_least(Arena<Point<2>> &points) {
     const std::size_t n = points.size();
     std::size_t a = 0, b = 1,
-                equal = 0; // two places to begin at, and so many equal points from there
+                equal = 0; // two places to begin at, and the number of equal points from there
     while (a < n && b < n && equal < n) {
         const Point<2> &p = points[(a + equal) % n], &q = points[(b + equal) % n];
         if (p == q) {
@@ -82,7 +83,7 @@ void ContourPieces::expect(double chains, double ends) const {
 
 // ---- Of a page --------------------------------------------------------------------------
 
-/// Where a piece that begins at a node is, or would be put.
+/// The slot of the piece that begins at a node, or the slot where it would be put.
 std::uint32_t &ContourPieces::slot_of(std::int64_t level, const ContourNode &node) {
     const auto mix = [](std::uint64_t word) { return (word ^ word >> 29) * 0xbf58476d1ce4e5b9; };
     std::uint64_t hash =
@@ -143,7 +144,7 @@ void ContourPieces::add_end(const ContourPiece &piece, const ContourNode &node, 
     to[begins_at + 1] = chains_;
 }
 
-/// Stores what follows a piece, and it; each then counts as its own successor.
+/// Stores a piece and the pieces that follow it; each then counts as its own successor.
 void ContourPieces::store_chain(std::uint32_t first) {
     std::uint64_t count = 0;
     Point<2> last;
@@ -181,7 +182,7 @@ void ContourPieces::finish() {
     slots_.reset();
     RecordSort successors(host_, 2, 1, memory_);
     find_successors(successors);
-    // Of chains: name of the line, level, least node, number, points, place.
+    // Chains: name of the line, level, least node, number, points, place.
     constexpr std::size_t number_at = 2 + node_words;
     RecordSort chains(host_, number_at + 3, number_at + 2, memory_);
     {
@@ -219,7 +220,7 @@ void ContourPieces::finish() {
     point_ = points_.next();
 }
 
-/// Chain by chain, the one that goes on at its end.
+/// Finds for each chain the one that continues at its end.
 void ContourPieces::find_successors(RecordSort &successors) {
     ends_.finish();
     std::array<std::uint64_t, end_words> before{};
@@ -240,7 +241,7 @@ void ContourPieces::find_successors(RecordSort &successors) {
     successors.finish();
 }
 
-/// Brings the lines into their order.
+/// Brings the lines into order.
 void ContourPieces::number(RecordSort &chains) {
     std::uint64_t name = ~std::uint64_t{0};
     while (const std::uint64_t *chain = chains.next()) {
@@ -255,16 +256,16 @@ void ContourPieces::number(RecordSort &chains) {
     chains.rewind();
 }
 
-/// Brings the points into theirs.
+/// Brings the points into order.
 void ContourPieces::place_points(RecordSort &chains) {
-    RecordSort numbers(host_, 2, 1, memory_); // of lines, by name
+    RecordSort numbers(host_, 2, 1, memory_); // line names and numbers
     for (std::uint64_t n = 0; const std::uint64_t *line = lines_.next(); ++n) {
         std::uint64_t *const to = numbers.add();
         to[0] = line[1 + node_words];
         to[1] = n;
     }
     numbers.finish();
-    RecordSort places(host_, 4, 1, memory_); // of chains: number, points, line, place
+    RecordSort places(host_, 4, 1, memory_); // for each chain: number, points, line, place
     const std::uint64_t *number = numbers.next();
     while (const std::uint64_t *chain = chains.next()) {
         while (number[0] != chain[0]) number = numbers.next();

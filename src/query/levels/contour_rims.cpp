@@ -16,8 +16,8 @@ ContourPoint point(const std::uint64_t *from) {
     return {{from_ordered(from[0]), from_ordered(from[1])}, static_cast<std::int64_t>(from[2])};
 }
 
-/// Where b is as seen from `center`, turning clockwise from a: 0 before half a turn, 1 at that, 2
-/// behind it, 3 after a full turn.
+/// The position of b as seen from `center`, turning clockwise from a: 0 before half a turn, 1 at
+/// half a turn, 2 after it, 3 after a full turn.
 int part_of_turn(const Point<2> &center, const Point<2> &a, const Point<2> &b) {
     const int part = 1 + orientation(center, a, b);
     return part == 1 && (a < center) == (b < center) ? 3 : part;
@@ -42,7 +42,7 @@ void ContourRims::add(const ContourPoint &from, double value_from, const Contour
     words[2] = std::bit_cast<std::uint64_t>(rises ? value_to : value_from);
 }
 
-/// Those without a triangle on their other side, at both of their ends.
+/// Finds the edges without a triangle on their other side; each gives a spoke at both ends.
 void ContourRims::find_spokes() {
     edges_.finish();
     std::array<std::uint64_t, edge_words> edge{};
@@ -78,7 +78,7 @@ void ContourRims::finish(ContourPieces &pieces) {
     ContourPoint vertex;
     const auto end_vertex = [&] {
         go_on(vertex, pieces);
-        pieces.flush(); // which name points here
+        pieces.flush(); // the pieces' nodes refer to these points
         arrive_.clear();
         leave_.clear();
     };
@@ -113,7 +113,7 @@ auto ContourRims::next_clockwise(const Point<2> &vertex, const Spoke &from) cons
     return *first;
 }
 
-/// Of the edge that arrives from there; the rim goes on to another.
+/// Adds the pieces of the edge that arrives from `from`; the rim continues along the edge to `to`.
 void ContourRims::add_pieces(const ContourPoint &vertex, const Spoke &from, const Spoke &to,
                              ContourPieces &pieces) const {
     const ContourEdge edge(from.other, from.other_value, vertex, from.value);

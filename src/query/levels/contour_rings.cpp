@@ -26,7 +26,7 @@ std::size_t ContourRings::first_equal(const Arena<Point<2>> &path, std::size_t p
     }
 }
 
-/// Takes off a ring that begins and ends at an open point.
+/// Takes off the ring that begins and ends at an open point.
 void ContourRings::take(std::size_t place) {
     ring_.clear();
     for (std::size_t i = place; i < open_.size(); ++i) ring_.push_back(open_[i]);
@@ -34,7 +34,7 @@ void ContourRings::take(std::size_t place) {
     open_.resize(place);
 }
 
-/// Of two triangles that cancel, too, the sum is exactly 0.
+/// If two triangles cancel each other, the sum is exactly 0 as well.
 bool ContourRings::has_area() const {
     if (ring_.size() < 4) return false;
     double twice = 0;

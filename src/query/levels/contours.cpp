@@ -23,7 +23,7 @@ void report_path(abacus_contour_report report, void *context, std::int64_t id, d
 
 } // namespace
 
-// Two thirds of the memory for what is joined, the rest for the rim.
+// Two thirds of the memory to join the pieces, the rest for the rim.
 Contours::Contours(const Host &host, const abacus_facts &facts, const abacus_window &window,
                    const abacus_contouring &contouring, std::size_t memory)
     : host_(host), facts_(facts), simplices_(facts.census.simplices + facts.census.ghosts),
@@ -39,7 +39,7 @@ void Contours::each(abacus_contour_report report, void *context) {
 
 void Contours::read() {
     std::uint64_t seen = 0; // simplices
-    double pieces = 0;      // so far, at most; negative: they have been counted
+    double pieces = 0;      // at most, so far; negative: they have been counted
     const std::uint64_t total = window_.region() == nullptr ? simplices_ : 0;
     pacer_.begin(ABACUS_PHASE_SCANNING, total);
     while (pages_.advance()) {
@@ -76,7 +76,7 @@ void Contours::count() {
         chains += static_cast<double>(most);
     }
     if (window_.region() != nullptr) return pieces_.expect(chains, 0);
-    if (how_.bands != 0) chains *= 2; // no side of a window joins those along both levels of a band
+    if (how_.bands != 0) chains *= 2; // no side joins the chains along both levels of a band
     pieces_.expect(chains, 2 * chains);
 }
 
@@ -155,7 +155,7 @@ void Contours::note_edge(int from, int to) {
     }
 }
 
-/// Of the edges that have one triangle in the page.
+/// Notes the edges that have only one triangle in the page.
 void Contours::note_rims() {
     for (const PageEdge &edge : edges_)
         if (edge.from != edge.to && !edge.has_two)

@@ -11,7 +11,7 @@ namespace abacus {
 
 namespace {
 
-/// Of a parameter; else it is computed in rational numbers.
+/// Of a parameter; if the error is larger, the parameter is computed in rational numbers.
 constexpr double most_error = 1e-9;
 
 } // namespace
@@ -93,7 +93,7 @@ template <int D> std::optional<LinePiece<D>> LineScan<D>::piece_in(Handle h) con
     const std::optional<Passage<D>> passage = abacus::passage<D>(line_, corners);
     if (!passage) return std::nullopt;
     const int in = passage->enters.facet, out = passage->leaves.facet;
-    if (facet_side<D>(corners, out, line_.from) <= 0) return std::nullopt; // behind the beginning
+    if (facet_side<D>(corners, out, line_.from) <= 0) return std::nullopt; // before the line begins
     if (line_.to && facet_side<D>(corners, in, *line_.to) <= 0) return std::nullopt;
     Piece piece;
     if (facet_side<D>(corners, in, line_.from) < 0) fill(piece.enters, h, passage->enters);
@@ -117,7 +117,7 @@ template <int D> bool LineScan<D>::hand_out(Piece &piece) {
     if (is_too_long<D>(piece.simplex, max_edge_)) return true;
     piece.follows = left_ && left_->is_same_place(piece.enters);
     piece.jumps = piece.follows && !piece.enters.is_end && !piece.enters.has_values_of(*left_);
-    // What is in order must not be rounded out of it.
+    // Rounding must not change the order.
     const double before = left_ ? left_->at : 0, end = line_.to ? 1.0 : INFINITY;
     piece.enters.at = piece.follows ? before : std::clamp(piece.enters.at, before, end);
     piece.leaves.at = std::clamp(piece.leaves.at, piece.enters.at, end);
@@ -171,7 +171,7 @@ template <int D> void LineScan<D>::begin_outside() {
         std::array<const Point<D> *, D> facet;
         for (int i = 0; i < D; ++i) corners[i] = facet[i] = &cache_.point(ghost.vertex[i]);
         corners[D] = &line_.from;
-        if (orientation<D>(corners) <= 0) return; // not seen: the line passes the mesh by
+        if (orientation<D>(corners) <= 0) return; // not visible: the line misses the mesh
         random ^= random << 13;
         random ^= random >> 17;
         random ^= random << 5;
@@ -203,7 +203,7 @@ template <int D> void LineScan<D>::look_around(Handle h, const Crossing<D> &cros
         return std::find(face.begin(), face.begin() + corners, v) == face.begin() + corners;
     };
     found_.reset();
-    if (corners == D) { // one simplex is beyond
+    if (corners == D) { // only one simplex is beyond
         int facet = 0;
         while (!has_face(h, facet)) ++facet;
         consider(link_simplex(cache_.cross(h, facet)), crossing);
@@ -220,7 +220,7 @@ template <int D> void LineScan<D>::go_on() {
     look_around(at_, here);
 }
 
-/// Gives memory back; the simplex at hand stays.
+/// Gives memory back; the current simplex stays.
 template <int D> void LineScan<D>::trim() {
     const Key page = cache_.lower(at_);
     cache_.use(at_);

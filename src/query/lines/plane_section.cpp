@@ -28,7 +28,7 @@ PlaneRegion::PlaneRegion(const CuttingPlane &plane, const Box<3> &around)
     const double square = n[0] * n[0] + n[1] * n[1] + n[2] * n[2];
     Point<3> foot;
     for (int i = 0; i < 3; ++i) foot[i] = around.lower[i] * 0.5 + around.upper[i] * 0.5;
-    // To the plane and back to the box, and so on: that leads to where both are, if they meet.
+    // Alternate between the plane and the box: this leads to a common point, if they meet.
     for (int round = 0; round < 20; ++round) {
         const double way = plane.height(foot) / square;
         for (int i = 0; i < 3; ++i) foot[i] -= n[i] * way;
@@ -51,7 +51,7 @@ bool PlaneRegion::may_meet(const Point<3> *const *points, int n) const {
 }
 
 bool PlaneRegion::may_meet(const Box<3> &box) const {
-    if (box.upper[0] < box.lower[0]) return false; // of a page without vertices
+    if (box.upper[0] < box.lower[0]) return false; // a page without vertices
     Point<3> lowest, highest;
     for (int i = 0; i < 3; ++i) {
         const bool falls = plane_.normal()[i] < 0;
@@ -96,12 +96,12 @@ bool PlaneSection::take(int simplex, abacus_polygon &polygon) const {
         if (!cut(simplex, polygon)) return false;
     } else {
         if (!is_bottom(simplex) || is_too_long(simplex, 3)) return false;
-        if (is_split_ && is_of_fault(simplex)) return false; // the simplex below gives the facet
+        if (is_split_ && is_of_fault(simplex)) return false; // the simplex below has this section
         // The facet as seen from inside, which is above.
         for (const int i : {0, 2, 1}) add(page.corner(simplex, i), polygon);
     }
     polygon.code = code_of(page, simplex, domain_);
-    // The order of the corners in memory depends on how the simplex came about.
+    // The order of the corners in memory depends on the history of the simplex.
     const auto is_less = [](const double(&p)[3], const double(&q)[3]) {
         return std::lexicographical_compare(p, p + 3, q, q + 3);
     };
@@ -121,7 +121,8 @@ bool PlaneSection::cut(int simplex, abacus_polygon &polygon) const {
         above |= static_cast<unsigned>(heights_[page.corner(simplex, i)] >= 0) << i;
     const TetrahedronCut &cut = tetrahedron_cuts[above];
     if (cut.corners == 0) return false;
-    // From above: the other way round. A corner on a vertex comes once; its edges are in a row.
+    // In the order as seen from above, so in reverse. A corner on a vertex is added once; its edges
+    // follow one another.
     int last = -1;
     for (int i = cut.corners; i-- > 0;) {
         const int below = page.corner(simplex, cut.edge[i].below);
@@ -137,13 +138,13 @@ bool PlaneSection::cut(int simplex, abacus_polygon &polygon) const {
     return polygon.corners >= 3 && !is_too_long(simplex, 4);
 }
 
-/// Whether a ghost's facet is in the plane and the mesh above it.
+/// Whether a ghost's facet is in the plane, with the mesh above it.
 bool PlaneSection::is_bottom(int ghost) const {
     const PageView<3> &page = pages_.page();
     for (int i = 0; i < 3; ++i)
         if (heights_[page.corner(ghost, i)] != 0) return false;
-    // Its corners turn to the left as seen from outside. Seen along an axis on which the normal is
-    // not 0 it is not a line.
+    // The corners turn to the left as seen from outside. Along an axis on which the normal is not
+    // 0, the facet does not appear as a line.
     const Point<3> &normal = plane_.normal();
     int axis = 0;
     for (int i = 1; i < 3; ++i)
@@ -155,8 +156,8 @@ bool PlaneSection::is_bottom(int ghost) const {
     return (orientation(flat(0), flat(1), flat(2)) > 0) == (normal[axis] < 0);
 }
 
-/// Whether another ghost has its facet at the same place: it has the same key, so it is on the
-/// page.
+/// Whether another ghost has its facet at the same place. Such a ghost has the same key, so it is
+/// on the same page.
 bool PlaneSection::is_of_fault(int ghost) const {
     const PageView<3> &page = pages_.page();
     const auto has_corner = [&](int other, const Point<3> &p) {

@@ -43,7 +43,7 @@ template <int D> void Profile<D>::put_corner(const Point<D> &place, bool comes_i
 
 template <int D> void Profile<D>::put_line(const Point<D> &from, const Point<D> &to) {
     const double length = distance<D>(from, to);
-    // Not before the last row, to which rounding might lead.
+    // Not before the last row, which rounding might lead to.
     const auto distance_to = [&](const Crossing<D> &crossing) {
         const double along = std::min(distance<D>(from, crossing.place()), length);
         return std::max(distance_ + along, last_->distance);

@@ -10,12 +10,12 @@ namespace {
 
 using exact::Rational;
 
-/// An end of the line, and what is known of it.
+/// An end of the line, and the facts about it.
 struct End {
     Point<2> place;
     std::optional<Rational> ground; // the terrain's height
-    std::optional<Rational> z;      // the line's; none if it stands nowhere
-    double rounded = 0;             // z
+    std::optional<Rational> z;      // the line's; none if its ground is unknown
+    double rounded = 0;             // z, rounded
     int above = 0;                  // sign of the ground's height above the line's
     double ground_above = 0;        // rounded
 };
@@ -57,15 +57,15 @@ public:
     abacus_sight look();
 
 private:
-    /// How far the ground is above the line, or below it, at a parameter of the line.
+    /// How far the ground is above the line at a parameter of the line; negative if it is below.
     struct Sample {
         double at, above;
     };
 
     End find(const abacus_sight_end &given);
-    /// Whether the ground is above the line there; false if it is not known how high it is.
+    /// Whether the ground is above the line there; false if its height is unknown.
     bool is_above(const Line<2> &line, const Crossing<2> &crossing, std::optional<Sample> &sample);
-    /// Goes to the next place; whether the line is blocked there, or since the last place.
+    /// Goes to the next place; returns whether the line is blocked there, or since the last place.
     bool is_blocked(const std::optional<Sample> &sample, bool is_above);
     abacus_sight blocked_at(double parameter) const;
     abacus_sight look_along(const Line<2> &line);
@@ -75,7 +75,7 @@ private:
     const double max_edge_;
     const End from_, to_;
     std::optional<Sample> last_; // in the same triangle as the next one
-    double blocked_ = 0;         // where it is
+    double blocked_ = 0;         // the parameter where it is blocked
 };
 
 End LineOfSight::find(const abacus_sight_end &given) {

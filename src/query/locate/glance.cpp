@@ -13,13 +13,13 @@ template <int D>
 bool Glance<D>::find(std::uint64_t &code, const Point<D> &p, abacus_simplex &simplex,
                      CornerValues *values) {
     looks_ = 0;
-    if (!in_order_) held_[0].upper = {}; // its bytes were the host's, for a while
-    KnownPage own;                       // a copy: others will be added
+    if (!in_order_) held_[0].upper = {}; // its bytes were borrowed from the host
+    KnownPage own;                       // a copy, since others will be added
     if (const Held *const held = find_held(code)) {
         own = held->page;
     } else if (const KnownPage *const known = known_.find(code)) {
         own = *known;
-    } else { // then it is not known either how far to look around
+    } else { // then it is also unknown how far to look around
         if (is_cached(code)) return false;
         const Outcome outcome = look(code, nullptr, p, simplex, values);
         if (outcome != Outcome::not_here) return outcome == Outcome::found;
@@ -50,7 +50,7 @@ bool Glance<D>::find(std::uint64_t &code, const Point<D> &p, abacus_simplex &sim
     return false;
 }
 
-/// Code of the cell so far away in a direction, or at the border of the domain.
+/// The code of the cell at a distance in a direction, or at the border of the domain.
 template <int D>
 static std::uint64_t code_at(const Cell<D> &cell, const std::array<int, D> &way, double distance) {
     constexpr std::int64_t last = (std::int64_t{1} << code_bits<D>)-1;
@@ -97,7 +97,8 @@ template <int D> bool Glance<D>::was_seen(const Key &page) {
     return false;
 }
 
-/// About as far as the coordinates go in a page; what comes behind is read of one simplex.
+/// About the part of a page up to the end of the coordinates; the rest is read for one simplex
+/// only.
 static constexpr std::size_t searched_bytes = 4608;
 
 template <int D>
@@ -123,7 +124,7 @@ typename Glance<D>::Held &Glance<D>::hold(std::uint64_t code, const abacus_page 
     const auto used_before = [](const Held &a, const Held &b) { return a.last_use < b.last_use; };
     Held &held = in_order_ ? *std::min_element(held_.begin(), held_.end(), used_before) : held_[0];
     ++pages_read_;
-    held.upper = {}; // no page's, until all went well
+    held.upper = {}; // no page, until everything has succeeded
     held.asked = 0;
     held.patches = 0;
     held.has_boxes = false;
@@ -194,7 +195,7 @@ template <int D> void Glance<D>::read_patch(Held &held, int patch) {
     held.patches |= std::uint64_t{1} << patch;
 }
 
-/// The side of a coordinate in the bits of its axis.
+/// The side on which a coordinate lies, in the bits of its axis.
 static unsigned side_of(Column::Prefix prefix, Column::Prefix own, int axis) {
     return (prefix < own ? 1u << 2 * axis : 0) | (prefix > own ? 2u << 2 * axis : 0);
 }
@@ -211,7 +212,7 @@ template <int D> void Glance<D>::compare(const PageView<D> &view, int patch, con
     }
     for (int i = named.begin; i < named.end; ++i) {
         const int v = view.named(i);
-        if (v >= fresh.begin) continue; // the point at infinity has its side at last
+        if (v >= fresh.begin) continue; // the point at infinity gets its side at the end
         unsigned side = 0;
         for (int axis = 0; axis < D; ++axis)
             side |=
@@ -224,7 +225,7 @@ template <int D> void Glance<D>::compare(const PageView<D> &view, int patch, con
 template <int D> int Glance<D>::position(PageView<D> &view, int simplex, const Point<D> &p) {
     if (view.is_ghost(simplex)) return -1;
     for (int i = 0; i <= D; ++i) {
-        view.ask_for_id(view.corner(simplex, i)); // most likely it is the one
+        view.ask_for_id(view.corner(simplex, i)); // this is most likely the simplex
         view.read_point(view.corner(simplex, i));
     }
     return in_simplex<D>(corners_of(view, simplex), p);

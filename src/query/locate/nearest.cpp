@@ -4,12 +4,12 @@ namespace abacus {
 
 namespace {
 
-/// A square that no point of the box is nearer to p than, whatever is rounded.
+/// A square of a distance that no point of the box is nearer to p than, whatever is rounded.
 template <int D> double least_square(const Box<D> &box, const Point<D> &p) {
     return std::max(0.0, rounded_square<D>(p, box.nearest(p)) * (1 - 1e-15) - 1e-290);
 }
 
-/// One that the point is not farther away than.
+/// A square of a distance that the point is not farther away than.
 template <int D> double greatest_square(const Point<D> &p, const Point<D> &point) {
     return rounded_square<D>(p, point) * (1 + 1e-15) + 1e-290;
 }
@@ -57,7 +57,7 @@ template <int D> void Nearest<D>::search_edges() {
         if (compare_distance<D>(p_, cache_.point(s.vertex[i]), cache_.point(nearest_.vertex)) < 0)
             nearest_.vertex = s.vertex[i];
     while (!look_around_plateau()) forget();
-    // Those at the least distance have been gone through: to do so again finds nothing new.
+    // The points at the least distance have been visited; visiting them again finds nothing new.
     std::uint64_t found = 1;
     for (auto next = candidates_.begin(); found < k_ && next != candidates_.end(); ++next, ++found)
         look_around(*next);

@@ -13,7 +13,7 @@ namespace abacus {
 
 namespace {
 
-/// Of the memory, what attributes get that are apart.
+/// The share of the memory for attributes that are apart.
 constexpr std::size_t attributes_share = 8;
 
 CacheOptions linked_as(const abacus_facts &facts, CacheOptions options) {
@@ -201,7 +201,7 @@ template <int D>
 bool Reader<D>::locate(const Point<D> &p, abacus_simplex &simplex, CornerValues *values,
                        double max_edge) {
     if (!delaunay_) {
-        // Of a cache that is full a walk needs pages that are evicted; a search keeps others.
+        // When the cache is full, a walk needs pages that were evicted; a search keeps other pages.
         const bool is_walk = !is_search_ && cache_.counters.evictions == 0;
         const Handle inside = is_walk ? walk_to_inside(p) : no_handle;
         if (inside == no_handle) return search_first(p, simplex, values, max_edge);
@@ -229,9 +229,9 @@ std::optional<typename Reader<D>::Around> Reader<D>::page_around(const Point<D> 
 template <int D>
 bool Reader<D>::glance(const Point<D> &p, std::uint64_t &code, abacus_simplex &simplex,
                        CornerValues *values) {
-    if (cache_.counters.evictions == 0 && !in_order_) return false; // the cache takes more
+    if (cache_.counters.evictions == 0 && !in_order_) return false; // the cache finds more
     if (size_ == 0) return false;
-    // Of places in order those that no glance finds come together, too.
+    // In order, places that no glance finds also come one after another.
     if ((!in_order_ || is_no_glance_) && is_at_hand(code)) return false;
     cache_.poll();
     const bool is_found = glance_.find(code, p, simplex, values);
@@ -285,8 +285,8 @@ template <int D> bool Reader<D>::has_ids(Handle h, const std::int64_t *ids) cons
 }
 
 template <int D> int Reader<D>::named_corner(Handle h, const std::int64_t *ids, int facet) const {
-    // Which of several corners with this id is meant, their order tells where the simplex is
-    // handed out.
+    // If several corners have this id, their order in the returned simplex decides which one is
+    // meant.
     const Simplex<D> &s = cache_.simplex(h);
     abacus_simplex given;
     describe(h, given);
@@ -302,7 +302,7 @@ template <int D> int Reader<D>::named_corner(Handle h, const std::int64_t *ids, 
 
 template <int D> Handle Reader<D>::named(std::uint64_t code, const std::int64_t *ids) {
     Handle h = no_handle;
-    Key page{}; // that has it
+    Key page{}; // the page that has the simplex
     bool is_unique = true;
     const auto is_it = [&](Handle candidate) {
         return cache_.is_live(candidate) && cache_.code(cache_.simplex(candidate)) == code &&
@@ -329,7 +329,7 @@ template <int D> Handle Reader<D>::named(std::uint64_t code, const std::int64_t 
                     "several simplices of the mesh have this code and these ids",
                     "Their vertices include points with equal ids.",
                     "Give the points unique ids to walk from one simplex to another.");
-    if (!is_it(h)) // evicted, for other pages with the code
+    if (!is_it(h)) // evicted for other pages with the code
         cache_.visit(page, [&](Handle candidate) {
             if (is_it(candidate)) h = candidate;
         });

@@ -11,8 +11,8 @@ void Reader<D>::describe(std::uint64_t code, const std::int64_t *ids, abacus_sim
 template <int D>
 void Reader<D>::neighbours(std::uint64_t code, const std::int64_t *ids, std::uint32_t steps,
                            const std::function<void(const abacus_simplex &)> &visit) {
-    Arena<std::uint32_t> steps_to(cache_.host()); // those that the flood has met, in its order
-    std::size_t at = 0;                           // whose facets are asked for
+    Arena<std::uint32_t> steps_to(cache_.host()); // of the simplices met, in the flood's order
+    std::size_t at = 0;                           // the one whose facets are crossed
     const auto crosses = [&](Handle h, int) {
         while (around_.met()[at] != h) ++at;
         return steps_to[at] < steps && !cache_.simplex(h).is_ghost();

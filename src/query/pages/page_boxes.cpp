@@ -7,7 +7,7 @@ PageBoxes<D>::PageBoxes(const Host &host, const abacus_facts &facts, std::size_t
     : keys_(host), boxes_(host), tree_(host) {
     const std::size_t most =
         std::max<std::size_t>(16, bytes / (sizeof(Key) + BoxTree<D>::bytes_per_box));
-    std::size_t pages = 1, in_last = 0; // pages of a box; of the last one
+    std::size_t pages = 1, in_last = 0; // pages for each box; for the last one
     PageScan<D> scan(host, facts);
     while (scan.advance()) {
         if (in_last == pages || keys_.empty()) {
@@ -32,7 +32,7 @@ PageBoxes<D>::PageBoxes(const Host &host, const abacus_facts &facts, std::size_t
     boxes_.reset();
 }
 
-/// One box for each two; the last may have fewer pages than the others.
+/// Joins each two boxes into one; the last may have fewer pages than the others.
 template <int D> void PageBoxes<D>::halve() {
     std::size_t n = 0;
     for (std::size_t i = 0; i < keys_.size(); i += 2, ++n) {

@@ -7,7 +7,7 @@
 namespace abacus {
 
 namespace {
-/// A thread looks so often whether it has to end when there is nothing to do.
+/// A thread without work checks this often whether it has to end.
 constexpr std::chrono::milliseconds longest_wait{20};
 } // namespace
 

@@ -29,7 +29,7 @@ template <int D> void PageFlood<D>::reach(const Key &key) {
 }
 
 template <int D> void PageFlood<D>::reach_all(std::uint64_t code) {
-    // From the last one back.
+    // Start with the last page.
     Key key = last_of(code);
     while (const Key *const lower = read_around(key)) {
         if (*lower <= Key{code, 0}) return;
@@ -45,7 +45,7 @@ template <int D> void PageFlood<D>::follow(int link) {
     const std::uint64_t part = view_.link_part(link);
     if (code >= key_word_end || (part >= key_word_end && part != unknown_part))
         throw_corrupted("A page has a link to an impossible key.");
-    // A part of 0 may stand for any: there was none when the link was stored.
+    // A part of 0 may stand for any part: the code had no parts when the link was stored.
     if (part == 0 || part == unknown_part)
         reach_all(code);
     else

@@ -14,7 +14,7 @@ template <int D> typename PageSearch<D>::Held &PageSearch<D>::page(const Key &ke
         if (held.last_use < oldest->last_use) oldest = &held;
     }
     Held &held = *oldest;
-    held.lower = held.upper = {}; // no page's, until all went well
+    held.lower = held.upper = {}; // no page, until everything has succeeded
     held.patches = 0;
     abacus_page page{};
     if (!host_.find(ABACUS_SIMPLEX_PAGES, key, page))

@@ -14,7 +14,7 @@ namespace abacus {
 
 namespace {
 
-/// What both views know of a simplex.
+/// The data of a simplex that both views use.
 template <int D> class MeshView {
 public:
     static constexpr int dimension = D;
@@ -28,7 +28,7 @@ protected:
           max_edge_(drawing.max_edge) {}
 
     double value(int vertex) const { return values_.value(vertex); }
-    /// What the simplex shows is of its label, if the drawing is of one.
+    /// Sets the values of a patch to the simplex's label, if the drawing shows a label.
     void set_label(const PageView<D> &page, int simplex, Patch &patch) {
         if (label_ >= 0)
             std::fill_n(patch.value, patch.corners, labels_.of_page(page, simplex)[label_]);
@@ -69,7 +69,7 @@ public:
     }
 
 private:
-    // Only of a tile a plane of its own; else what is drawn are coordinates.
+    // a tile has a plane of its own; other drawings use coordinates
     const MapPlane plane_;
 };
 
@@ -108,8 +108,8 @@ private:
         patch.spacing = spacing(page, simplex, n);
         return true;
     }
-    /// Root of the mean square of the edges of a simplex with n finite corners: as far
-    /// as its vertices lie apart, however flat it is.
+    /// Root mean square of the edges of a simplex with n finite corners: the distance of its
+    /// vertices, however flat it is.
     static double spacing(const PageView<3> &page, int simplex, int n) {
         double sum = 0;
         for (int i = 0; i < n; ++i)
@@ -128,8 +128,8 @@ private:
     std::array<Place, page_vertices<3>> places_;
 };
 
-/// What of space a section shows: the plane, or what of it lies in a window of its sheet. Decided
-/// by the places of vertices, as what is drawn is.
+/// The part of space that a section shows: the plane, or its part in a window of the sheet. The
+/// places of vertices decide, as they do when drawing.
 class SectionRegion : public Region<3> {
 public:
     SectionRegion(const Plane &plane, const abacus_section &section, const abacus_drawing &sheet)
@@ -179,7 +179,7 @@ void stream(RangeScan<D> &pages, View &view, Picture &picture) {
     }
 }
 
-/// `region` is what the drawing shows with its margin; null: all of the mesh.
+/// `region` is the part that the drawing shows with its margin; null: the whole mesh.
 template <int D, class View>
 Portrait draw(const Host &host, const abacus_facts &facts, const abacus_drawing &drawing,
               std::int32_t margin, const Region<D> *region, View &&view, abacus_ramp usual) {

@@ -51,7 +51,7 @@ private:
         return window;
     }
 
-    /// Without an attribute the picture is one of lengths: the integral of 1.
+    /// Without an attribute, the picture shows lengths: the integral of 1.
     double value(const PageView<3> &page, int vertex) const {
         return attribute_ >= 0 ? vertex_values_.value(page, vertex, attribute_) : 1;
     }
@@ -65,7 +65,7 @@ private:
         }
     }
 
-    /// The picture holds the box, or all tetrahedra.
+    /// Fits the picture to the box, or to all tetrahedra.
     void fit() {
         Box<2> around;
         if (box_) {

@@ -5,7 +5,7 @@
 
 namespace abacus {
 
-/// Gets the places in order.
+/// Receives the places in order.
 template <int D> class Places<D>::Visitor final : public RecordSink {
 public:
     Visitor(const Places &places, const Question<D> &question)
@@ -51,7 +51,7 @@ private:
     const Question<D> &question_;
     Tape tape_;
     std::optional<PlacesTogether<D>> together_;
-    std::optional<Answerer<D>> answerer_; // of the session's thread, if it has to
+    std::optional<Answerer<D>> answerer_; // for the session's thread, if it has to answer
 };
 
 template <int D> void Places<D>::each(const Question<D> &question) {

@@ -9,25 +9,26 @@ namespace abacus {
 
 namespace {
 
-/// Places that are worth the threads, and what is read and decoded more than once.
+/// From this number of places on, threads pay off although they read and decode some pages more
+/// than once.
 constexpr std::size_t places_worth_sharing = 1 << 13;
-/// Of a quick question: if there are fewer places, pages that come by the session's thread take
-/// longer than what is done with them.
+/// For a quick question: with fewer places, fetching pages by the session's thread takes longer
+/// than the work on them.
 constexpr std::uint64_t simplices_a_place = 32;
-/// More at once gain nothing.
+/// More places at once gain nothing.
 constexpr std::size_t most_at_once = 1 << 18;
 /// For tests.
 constexpr std::size_t tiny_gathered = 61, tiny_piece = 4;
 /// Share of the cache's memory that gathered places and answers may take.
 constexpr std::size_t gathered_share = 3;
-/// Pieces for each thread, so that none waits long for the last one.
+/// Pieces for each thread, so that no thread waits long for the last one.
 constexpr std::size_t pieces_a_thread = 8;
-/// Answers that are returned before threads are served again.
+/// Answers that are returned before the threads' requests are served again.
 constexpr std::size_t told_at_once = 64;
-/// Places until a thread looks whether it has to end.
+/// After this number of places a thread checks whether it has to end.
 constexpr std::size_t poll_every = 64;
 
-/// Places that may be gathered.
+/// How many places may be gathered.
 std::size_t room(const Host &host, std::size_t words, std::size_t cache_bytes) {
     if (host.has_tiny_intervals()) return tiny_gathered;
     return std::min(most_at_once, cache_bytes / gathered_share / (words * sizeof(std::uint64_t)));
@@ -77,7 +78,7 @@ template <int D> void PlacesTogether<D>::cut() {
     first_failed_.store(n, std::memory_order_relaxed);
 }
 
-/// What all threads do; or one, with the first piece that has not been answered to its end.
+/// The work of all threads; or of one thread, on the first unfinished piece.
 template <int D> class PlacesTogether<D>::Round final : public Crew::Work {
 public:
     explicit Round(PlacesTogether &all) : all_(all), first_(all.first_) {}
@@ -122,7 +123,7 @@ template <int D> void PlacesTogether<D>::answer(Piece &piece, const Host &host) 
         piece.tape.reserve(most_words_);
         for (std::size_t i = piece.answered; i < piece.end; ++i) {
             if (i % poll_every == 0) host.poll();
-            // None after the first failure will be returned.
+            // No answer after the first failure is returned.
             if (piece.tape.size() > most_words_ ||
                 i > first_failed_.load(std::memory_order_relaxed))
                 break;

@@ -18,13 +18,13 @@ namespace abacus {
 
 namespace {
 
-/// Where a row's line is within a facet's half-space: a bound on x from below, or from above, and
-/// infinite if there is none. Wide enough for what is rounded.
+/// The part of a row's line within a facet's half-space: a lower or an upper bound on x, or none.
+/// The bounds are wide enough for rounding errors.
 struct Bounds {
     double least = -INFINITY, greatest = INFINITY;
 };
 
-/// More than a product may lose where it underflows.
+/// An upper bound on what a product may lose when it underflows.
 constexpr double underflow = 1e-300;
 
 /// The normal of a facet, towards the simplex, and bounds on the errors of its coordinates.
@@ -75,7 +75,7 @@ void restrict_by_facet(const Corners<D> &corners, int facet, const Point<D> &in_
         bounds.greatest = std::min(bounds.greatest, x + margin);
 }
 
-/// The facets that p is on, bit by bit; negative if p is outside.
+/// The facets that p is on, as bits; negative if p is outside.
 template <int D> int facets_at(const Corners<D> &corners, const Point<D> &p) {
     int facets = 0;
     for (int i = 0; i <= D; ++i) {
@@ -152,7 +152,7 @@ template <int D> void ValueRaster<D>::fill_band() {
 }
 
 template <int D> bool ValueRaster<D>::is_finer_than_pixels() const {
-    // A place takes as long as so many simplices that have nothing to fill.
+    // A place takes as long as this many simplices that fill nothing.
     constexpr double most_read = 8;
     if (D == 3 || facts_.form.has_domain == 0) return false;
     double pixels = 1; // in the domain
@@ -167,7 +167,7 @@ template <int D> bool ValueRaster<D>::is_finer_than_pixels() const {
 template <int D> void ValueRaster<D>::ask() {
     constexpr std::size_t at_once = 512, words = record_words(D, 0);
     std::array<std::uint64_t, at_once * words> records;
-    std::optional<Places<D>> places; // if any are asked for
+    std::optional<Places<D>> places; // created for the first place
     std::size_t count = 0;
     const auto flush = [&] {
         if (count == 0) return;
@@ -240,7 +240,7 @@ template <int D> void ValueRaster<D>::fill_from(const PageView<D> &page, int sim
     Box<D> box;
     for (const Point<D> *corner : corners) box.extend(*corner);
     if (D == 3 && (box.upper[2] < raster_.lower[2] || raster_.lower[2] < box.lower[2])) return;
-    // Rows whose centres are between the least and the greatest y; the guess is put right.
+    // Rows whose centres are between the least and the greatest y; loops correct the guess.
     const std::int64_t begin = first_, end = std::int64_t(first_) + filled_;
     const double top = latitudes_.empty() ? box.upper[1] : MapPlane::mercator(box.upper[1]);
     const double guess = (raster_.upper[1] - top) / height_ * raster_.height - 0.5;
@@ -294,7 +294,7 @@ void ValueRaster<D>::fill_row(const PageView<D> &page, int simplex, std::uint32_
     while (first < last && (at_last = facets_at<D>(corners, centre(row, last))) < 0) --last;
     if (first == last) at_last = at_first;
     if (described_ != simplex) {
-        // Of the code nothing depends here.
+        // The code does not matter here.
         DescribedCorners<D> described;
         for (int i = 0; i <= D; ++i) {
             described.id[i] = page.id(page.corner(simplex, i));

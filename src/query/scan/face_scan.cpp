@@ -15,7 +15,7 @@ namespace {
 template <int D>
 typename RangeScan<D>::Wants pages_with(const std::optional<abacus_range> &range,
                                         const VertexValues<D> &values) {
-    if (!range || values.are_apart()) return {}; // as pages without attributes cannot tell
+    if (!range || values.are_apart()) return {}; // their pages do not know the values
     return [range = *range](const PageView<D> &page) {
         return page.may_have_attribute(static_cast<int>(range.attribute), range.least,
                                        range.greatest);
@@ -60,7 +60,7 @@ template <int D> bool FaceScan<D>::take(int simplex, unsigned face) {
     return is_of_ghost(simplex);
 }
 
-/// Of all vertices of the page with the range; a missing value is in none.
+/// Compares the values of all vertices of the page with the range; a missing value is never in it.
 template <int D> void FaceScan<D>::compare_values() {
     const auto attribute = static_cast<int>(range_->attribute);
     for (int v = 0; v < page().vertices(); ++v) {
@@ -85,12 +85,12 @@ template <int D> std::size_t FaceScan<D>::place(const FaceCorners &face) {
 
 template <int D> bool FaceScan<D>::is_of_ghost(int ghost) {
     FacetCorners facet;
-    Corners<D> corners{}; // the last one stays unread
+    Corners<D> corners{}; // the last one is not read
     for (int i = 0; i < D; ++i) {
         facet[i] = corner(page().corner(ghost, i));
         corners[i] = &facet[i].point;
     }
-    if (corners_ == D) return leads_inside(corners, D); // outside of the facet
+    if (corners_ == D) return leads_inside(corners, D); // as seen from outside the facet
     const FaceCorners face{corner(vertices_[0]), corner(vertices_[corners_ - 1])};
     known_.resize(most_known);
     std::optional<Known> &known = known_[place(face)];
@@ -102,7 +102,7 @@ template <int D> bool FaceScan<D>::is_of_ghost(int ghost) {
 template <int D> auto FaceScan<D>::find_owner() -> std::optional<FacetCorners> {
     if (!reader_) reader_.emplace(host_, facts_, cache_bytes_);
     const Cache<D> &cache = reader_->cache();
-    std::pmr::map<FacetCorners, int> facets(&memory_); // around the face: of how many simplices
+    std::pmr::map<FacetCorners, int> facets(&memory_); // around the face: simplices of each
     const auto add = [&](const Simplex<D> &s, int left_out) {
         FacetCorners facet;
         for (int i = 0, n = 0; i <= D; ++i)
@@ -115,7 +115,7 @@ template <int D> auto FaceScan<D>::find_owner() -> std::optional<FacetCorners> {
     reader_->containing(point(0), [&](Handle h) {
         const Simplex<D> &s = cache.simplex(h);
         const Corners<D> corners = cache.corners(s);
-        unsigned here = 0; // the face as the simplex has it
+        unsigned here = 0; // the face's corners in this simplex
         for (int i = 0; i <= D; ++i)
             for (int k = 0; k < corners_; ++k)
                 if (*corners[i] == point(k) &&

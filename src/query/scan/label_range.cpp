@@ -13,7 +13,7 @@ LabelRange<D>::LabelRange(const Host &host, const abacus_facts &facts, const aba
               AttributeGroups(facts.columns.labels).first(group_ - first_group<D + 1>)),
       labels_(host, facts) {}
 
-/// Of the page of labels that owns a key of the group.
+/// The stretch of the label page that owns a key of the group.
 template <int D> auto LabelRange<D>::stretch_of(const Key &key) -> const Stretch & {
     if (last_.lower <= key && key < last_.upper) return last_;
     host_.poll();
@@ -33,7 +33,7 @@ template <int D> auto LabelRange<D>::stretch_of(const Key &key) -> const Stretch
 template <int D> bool LabelRange<D>::may_be_in(const PageView<D> &page) {
     if (!has_labels_) return false;
     const Key upper = page.upper();
-    // Of an interval that ends within a code, all of that code.
+    // If the interval ends within a code, it counts to the end of that code.
     const std::uint64_t end = upper.code + (upper.part != 0);
     const Key behind =
         end < key_word_end ? in_group(code_begin(end), group_) : group_begin(group_ + 1);

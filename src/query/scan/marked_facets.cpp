@@ -14,7 +14,7 @@ MarkedFacets<D>::MarkedFacets(const Host &host, const abacus_facts &facts,
                               std::size_t cache_bytes)
     : is_split_(facts.census.split > 0), mesh_(host, facts, cache_bytes),
       sort_(host, key_words, key_words, memory) {
-    if (!marker) sort_.expect(static_cast<double>(facts.census.marked)); // at least a facet of each
+    if (!marker) sort_.expect(static_cast<double>(facts.census.marked)); // at least one facet each
     if (facts.census.marked > 0) read(host, facts, marker);
     sort_.finish();
 }
@@ -76,7 +76,7 @@ template <int D> auto MarkedFacets<D>::ids_of(const std::uint64_t *record) -> Id
     return ids;
 }
 
-/// The same as the simplex with the opposite corner has them.
+/// The ids as the simplex with the opposite corner has them.
 template <int D> auto MarkedFacets<D>::ids_beside(const std::uint64_t *record) -> Ids {
     std::array<Point<D>, D + 1> corner; // the opposite one is the last
     std::memcpy(corner.data(), record + 3, sizeof corner);

@@ -11,14 +11,14 @@ namespace abacus {
 
 namespace {
 
-/// Words that tell a vertex from others, in its order among them: its code, its coordinates; if
-/// vertices share their places its id, with its sign turned.
+/// Words that distinguish a vertex from others, and give their order: its code, its coordinates; if
+/// vertices share their places, also its id, with its sign flipped.
 template <int D> std::size_t key_words(const abacus_facts &facts) {
     return 1 + D + (facts.census.split > 0 ? 1 : 0);
 }
 constexpr std::uint64_t sign = std::uint64_t{1} << 63;
 
-/// Calls add(page, vertex) for all vertices of all pages; it returns room for the key.
+/// Calls add(page, vertex) for all vertices of all pages; add() returns room for the key.
 template <int D, class Add>
 void name_vertices(const Host &host, const abacus_facts &facts, Add add) {
     const Domain<D> domain = domain_of<D>(facts.form);
@@ -41,14 +41,14 @@ void name_vertices(const Host &host, const abacus_facts &facts, Add add) {
 
 } // namespace
 
-// Pages agree in what they say of a vertex, so any of its names will do.
+// All pages agree about a vertex, so any of its names will do.
 template <int D>
 NumberedVertices<D>::NumberedVertices(const Host &host, const abacus_facts &facts,
                                       std::size_t memory)
     : vertex_values_(host, facts), key_(key_words<D>(facts)),
       named_(host, 1 + D + 1 + static_cast<unsigned>(page_attributes(facts.columns)), key_, memory),
       left_(facts.census.vertices), current_(host), apart_(host) {
-    named_.expect(static_cast<double>(facts.census.vertices)); // most are named by several pages
+    named_.expect(static_cast<double>(facts.census.vertices)); // several pages name most vertices
     name_vertices<D>(host, facts, [&](const PageView<D> &page, int v) {
         std::uint64_t *const name = named_.add(), *rest = name + 1 + D;
         *rest++ = static_cast<std::uint64_t>(page.id(v)) ^ sign;

@@ -10,7 +10,7 @@ namespace abacus {
 
 namespace {
 
-/// Of the cache in which a walk leads to the region.
+/// The size of the cache for the walk to the region.
 constexpr std::size_t walk_bytes = std::size_t{1} << 20;
 
 template <int D> Box<D> box_of(const PageView<D> &page) {
@@ -22,7 +22,7 @@ template <int D> Box<D> box_of(const PageView<D> &page) {
     return box;
 }
 
-/// The corners of a ghost, and p in place of the point at infinity.
+/// The corners of a ghost, with p in place of the point at infinity.
 template <int D> Corners<D> ghost_corners(const PageView<D> &page, int ghost, const Point<D> &p) {
     Corners<D> corners;
     for (int i = 0; i < D; ++i) corners[i] = &page.point(page.corner(ghost, i));
@@ -49,7 +49,7 @@ template <int D> bool BoxRegion<D>::may_meet(const Point<D> *const *points, int 
 }
 
 template <int D> bool BoxRegion<D>::lies_beyond(const Corners<D> &facet) const {
-    // A ghost is positively oriented around what lies beyond its facet.
+    // A ghost is positively oriented around the half-space beyond its facet.
     for (int i = 0; i < 1 << D; ++i)
         if (facet_side<D>(facet, D, box_.corner(i)) <= 0) return false;
     return true;

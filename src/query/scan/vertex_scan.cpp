@@ -60,10 +60,10 @@ template <int D> bool VertexScan<D>::next_vertex(abacus_vertex &vertex) {
 }
 
 template <int D> bool VertexScan<D>::next_repeated(abacus_vertex &vertex) {
-    // Asked once more after its end it would search the table again, for each point that waits.
+    // After its end, each further call would search the table again, once for each waiting point.
     if (!more_repeated_) return false;
     more_repeated_ = repeated_.advance();
-    // Nothing else tells that pages of them are lost.
+    // Nothing else would show that some of its pages are lost.
     if (more_repeated_ != (repeated_left_ > 0))
         throw_corrupted("The header counts more or fewer repeated points than there are.");
     if (!more_repeated_) return false;

@@ -14,7 +14,7 @@ template <int D> Box<D> BallRegion<D>::box_around(const Ball<D> &ball) {
     return box;
 }
 
-// The nearest point of the box is compared, whose coordinates are not rounded.
+// Compares the nearest point of the box, whose coordinates are not rounded.
 template <int D> bool BallRegion<D>::may_meet(const Box<D> &box) const {
     return ball_.contains(box.nearest(ball_.center));
 }
@@ -25,7 +25,7 @@ template <int D> bool BallRegion<D>::may_meet(const Point<D> *const *points, int
     return may_meet(around);
 }
 
-// The thinnest one has the fewest pages.
+// The thinnest slab has the fewest pages.
 template <int D> Box<D> slab_around(const Box<D> &box) {
     int thinnest = 0;
     for (int i = 1; i < D; ++i)

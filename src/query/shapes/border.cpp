@@ -13,7 +13,7 @@ Border::Edge Border::turn(const Edge &edge, bool is_forward) {
     Handle at = edge.triangle;
     const int pivot = (edge.facet + (is_forward ? 2 : 1)) % 3;
     const VertexIndex v = cache_.simplex(at).vertex[pivot];
-    int facet = 3 - edge.facet - pivot; // the other one at the vertex
+    int facet = 3 - edge.facet - pivot; // the other facet at the vertex
     for (std::uint64_t turns = 1;; ++turns) {
         if (turns % 1024 == 0) cache_.poll();
         const Link beyond = cache_.cross(at, facet);

@@ -58,7 +58,7 @@ void Cavities::number_page() {
 void Cavities::finish() {
     facets_.finish();
     std::array<std::uint64_t, facet_words> side{};
-    std::uint64_t n = 0; // sides of the facet at hand; of a fault's four, all beside its ghosts
+    std::uint64_t n = 0; // sides of the current facet; a fault has four, all beside its ghosts
     const auto end_facet = [&] {
         if (n % 2 != 0) throw_corrupted("A facet has only one side.");
     };

@@ -18,7 +18,7 @@ template <int D>
 bool LightEdges<D>::is_longest(VertexIndex a, VertexIndex b, VertexIndex apex) const {
     if (apex == infinite_vertex) return false;
     const Point<D> &p = cache_.point(a), &q = cache_.point(b), &r = cache_.point(apex);
-    // Of edges of one length the one with the greater ends is the longer one.
+    // If two edges have the same length, the one with the greater ends counts as longer.
     const auto comes_after = [](const Point<D> &from, const Point<D> &to, const Point<D> &other) {
         const int sign = compare_distance<D>(from, to, other);
         return sign != 0 ? sign > 0 : std::minmax(from, to) > std::minmax(from, other);
@@ -36,7 +36,7 @@ template <int D> bool LightEdges<D>::is_longest(Handle h, int i, int j) {
         const Link beyond = cache_.cross(h, facet);
         return is_longest(a, b, cache_.simplex(link_simplex(beyond)).vertex[link_facet(beyond)]);
     } else {
-        // Where ghosts are not linked nobody gets around an edge.
+        // If ghosts are not linked, there is no way around an edge.
         if (!reader_.is_delaunay()) return false;
         turn_around<3>(cache_, h, {a, b}, [&](Handle, VertexIndex kept) {
             is_longest_of_one = is_longest_of_one || is_longest(a, b, kept);

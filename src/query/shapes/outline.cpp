@@ -63,7 +63,7 @@ Outline<3>::Outline(const Host &host, const abacus_facts &facts, const abacus_ou
     triangles_.finish();
 }
 
-/// Adds a triangle of corners that are counterclockwise seen from outside.
+/// Adds a triangle whose corners are counterclockwise as seen from outside.
 void Outline<3>::add(std::array<Corner, 3> corners, std::uint32_t part) {
     const auto least =
         std::min_element(corners.begin(), corners.end(), [](const Corner &a, const Corner &b) {
@@ -87,7 +87,7 @@ void Outline<3>::find_hull(const Host &host, const abacus_facts &facts, Reader<3
         for (int s = 0; s < page.simplices(); ++s) {
             if (!page.is_ghost(s)) continue;
             std::array<Corner, 3> corners;
-            // A ghost is positively oriented around what lies beyond its facet.
+            // A ghost is positively oriented around the half-space beyond its facet.
             for (int i = 0; i < 3; ++i)
                 corners[i] = {page.point(page.corner(s, i)), page.id(page.corner(s, i))};
             add(corners, 0);
@@ -114,7 +114,7 @@ template <class End> void Outline<3>::each_page(Reader<3> &reader, const Kept &k
             if (is_kept<3>(kept, cache, h)) continue;
             const bool is_ghost = cache.simplex(h).is_ghost();
             if (cavities_ && is_ghost) cavities_->meet_outside(h);
-            // Ghosts are all outside: what is across their ridges need not be looked at.
+            // All ghosts are outside, so their ridges can be skipped.
             for (int facet = is_ghost ? 3 : 0; facet < 4; ++facet) {
                 const Handle beyond = link_simplex(cache.cross(h, facet));
                 if (is_kept<3>(kept, cache, beyond))
@@ -128,7 +128,7 @@ template <class End> void Outline<3>::each_page(Reader<3> &reader, const Kept &k
 }
 
 void Outline<3>::find_border(Reader<3> &reader, const Kept &kept) {
-    // Borders of cavities are left out in the end, and how many these are is not known before.
+    // The borders of cavities are omitted in the end, and their number is not known before.
     const double most = 4.0 * static_cast<double>(reader.size());
     if (!cavities_ && !reader.cache().host().spool_fits(triangles_.spool_bytes(most)))
         count(reader, kept);
@@ -142,8 +142,8 @@ void Outline<3>::count(Reader<3> &reader, const Kept &kept) {
     triangles_.expect(triangles);
 }
 
-/// Triangles that are counterclockwise seen from the side that is not kept. A ghost is positively
-/// oriented around what lies beyond its facet, which is the last one.
+/// Adds triangles that are counterclockwise as seen from the side that is not kept. A ghost is
+/// positively oriented around the half-space beyond its facet, which is the last one.
 void Outline<3>::add_borders(Cache<3> &cache) {
     constexpr int inward[4][3] = {{1, 3, 2}, {0, 2, 3}, {0, 3, 1}, {0, 1, 2}};
     if (cavities_) cavities_->number_page();

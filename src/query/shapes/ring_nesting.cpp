@@ -7,7 +7,7 @@ namespace abacus {
 
 namespace {
 
-// Of an edge: from, to, ring, whether that is a hole. Of a ray: the edge where it ends, its ring.
+// An edge: from, to, ring, whether the ring is a hole. A ray: the edge where it ends, its ring.
 constexpr std::size_t edge_words = 6, ray_words = 5, edge_key = 4;
 
 void put_edge(std::uint64_t *words, const Point<2> &from, const Point<2> &to) {
@@ -103,7 +103,7 @@ bool RingNesting::follow_ray(Border::Edge &edge) {
     border_.find(edge);
     bool is_at_ray = false;
     if (!turn_to_ray(edge, is_at_ray)) return false;
-    // Across edges of what is not kept.
+    // Across edges between triangles that are not kept.
     for (std::uint64_t steps = 1; is_at_ray; ++steps) {
         if (steps % 1024 == 0) cache_.poll();
         if (steps > longest_) throw_corrupted("A ray through the mesh does not end.");
@@ -115,7 +115,7 @@ bool RingNesting::follow_ray(Border::Edge &edge) {
             edge = border_.edge(h, link_facet(link));
             return true;
         }
-        // On by the edge whose ends are on different sides of the ray.
+        // Continue across the edge whose ends are on different sides of the ray.
         const int apex = link_facet(link), next = (apex + 1) % 3;
         const auto is_above = [&](int corner) {
             return cache_.point(cache_.simplex(h).vertex[corner])[1] >= level;
@@ -126,7 +126,7 @@ bool RingNesting::follow_ray(Border::Edge &edge) {
 }
 
 void RingNesting::decide(RecordSort &edges, RecordSort &rays, std::size_t memory) {
-    RecordSort ends(host_, 3, 1, memory); // ring, where its ray ends, whether that is a hole
+    RecordSort ends(host_, 3, 1, memory); // ring, where its ray ends, whether the ring is a hole
     const std::uint64_t *edge = edges.next();
     while (const std::uint64_t *ray = rays.next()) {
         while (edge != nullptr &&

@@ -64,7 +64,7 @@ void Rings::add_start(RecordSort &starts, const Border::Edge &edge) {
     record[5] = edge.page.part;
 }
 
-/// The hull alone: no other page is read.
+/// Finds only the hull: no other page is read.
 void Rings::find_hull(RecordSort &starts) {
     const Link inside = cache_.cross(hull_ghost<2>(reader_), 2);
     const Border::Edge edge = border_.edge(link_simplex(inside), link_facet(inside));
@@ -163,7 +163,7 @@ void Rings::split(RecordSpool &visits, RecordSort &pieces, RecordSort &rings) {
         std::uint64_t end, ring;
     };
     Arena<Open> open(host_);
-    std::uint64_t walked = ~0ull; // the ring as it was walked
+    std::uint64_t walked = ~0ull; // the ring before it is split
     std::array<std::uint64_t, 3> piece{};
     bool is_piece = false;
     const auto read_piece = [&] {
@@ -197,7 +197,7 @@ void Rings::find_least(RecordSort &rings, RecordSort &least) const {
     Point<2> first{}, last{}, point{}, before{}, after{}; // `point` is the least so far
     bool is_after_open = false;
     const auto end_ring = [&] {
-        if (size < 3) return; // none, or both sides of an edge of a fault
+        if (size < 3) return; // empty, or both sides of one edge of a fault
         if (begin == 0) before = last;
         if (is_after_open) after = first;
         std::uint64_t *const record = least.add();
@@ -239,7 +239,7 @@ void Rings::number_rings(RecordSort &least, RecordSort &numbers) const {
         });
         for (const Record &record : group) {
             std::uint64_t *const to = numbers.add();
-            to[0] = record[4]; // as it is called so far
+            to[0] = record[4]; // its present number
             to[1] = number++;
             std::copy_n(&record[5], 3, to + 2); // where it begins, its size, whether it is a hole
         }

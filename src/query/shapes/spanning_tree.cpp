@@ -9,7 +9,8 @@ namespace abacus {
 
 namespace {
 
-/// Of a vertex of a chunk: two sets, and whether it is closed, or its new number.
+/// Memory for each vertex of a chunk: two sets, and a word that says whether it is closed, or is
+/// its new number.
 constexpr std::size_t bytes_per_vertex = 2 * sizeof(std::uint32_t) + sizeof(std::uint64_t);
 
 constexpr std::uint64_t least_room = 16, most_room = std::uint64_t{1} << 31;
@@ -38,7 +39,7 @@ SpanningTree<D>::SpanningTree(const Host &host, const abacus_facts &facts, std::
     {
         LightEdges<D> light(host, facts, cache_bytes);
         RecordSort ends(host_, end_words, D + 2, share_);
-        // As many as join all places of vertices.
+        // As many edges as join all places of vertices.
         rank(light, ends,
              static_cast<double>(facts.census.vertices) - static_cast<double>(facts.census.split) -
                  1);
@@ -51,7 +52,7 @@ SpanningTree<D>::SpanningTree(const Host &host, const abacus_facts &facts, std::
 }
 
 template <int D> void SpanningTree<D>::rank(LightEdges<D> &edges, RecordSort &ends, double least) {
-    // Of vertices at one place, which count as one, the ids tell which edge comes first.
+    // Vertices at one place count as one, so the ids decide which edge comes first.
     RecordSort by_length(host_, length_words, length_words, share_);
     host_.spool_expect(by_length.spool_bytes(least) + ends.spool_bytes(2 * least) +
                        details_.spool_bytes(least));
@@ -182,7 +183,7 @@ void SpanningTree<D>::contract_chunks(RecordSort &by_chunk, RecordSort &left,
             note[parts.find(one)] = is_closed;
             put(tree_, {edge[1]});
         }
-        // The name of a part is the least of it: it gets its number first.
+        // A part is named after its least vertex, so that one gets its number first.
         for (std::uint32_t i = 0; i < size; ++i) {
             const std::uint32_t part = parts.find(i);
             if (part == i) note[i] = next++;

@@ -9,15 +9,15 @@ namespace abacus {
 
 namespace {
 
-/// Whether the ball around a simplex may meet the box. True where it does, whatever is rounded.
+/// Whether the ball around a simplex may meet the box. True if it does, whatever is rounded.
 template <int D> bool ball_may_meet(const Corners<D> &corners, const Box<D> &box) {
     const Point<D> centre = circumcentre<D>(corners, Rounding::whenever);
-    // The centre is right to ten digits of what it is away from the corners.
+    // The error of the centre is at most 1e-10 of its distance from the corners.
     const double radius = distance<D>(centre, *corners[0]);
     return !(distance<D>(centre, box.nearest(centre)) > radius * (1 + 1e-8));
 }
 
-/// The same of what lies beyond the facet of a ghost, whose last corner is not read.
+/// The same for the half-space beyond the facet of a ghost, whose last corner is not read.
 template <int D> bool half_space_may_meet(const Corners<D> &corners, const Box<D> &box) {
     for (int i = 0; i < 1 << D; ++i)
         if (facet_side<D>(corners, D, box.corner(i)) >= 0) return true;
@@ -130,7 +130,7 @@ template <int D> Point<D> Voronoi<D>::centre(Handle h) {
         const VertexIndex apex = cache_.simplex(link_simplex(beyond)).vertex[link_facet(beyond)];
         if (apex == infinite_vertex) continue;
         const Point<D> &p = cache_.point(apex);
-        // Ten right digits show for nearly all points that they are not on the sphere.
+        // Nearly always ten correct digits are enough to show that a point is not on the sphere.
         if (std::abs(distance<D>(centre, p) - radius) > 1e-7 * radius) continue;
         if (exact::unperturbed_in_sphere<D>(corners, p) == 0)
             return circumcentre<D>(corners, Rounding::at_the_end);
@@ -209,7 +209,7 @@ template <int D> bool Voronoi<D>::make_cell(Link corner) {
     vertex_ = cache_.point(v);
     id_ = cache_.vertices().id(v);
     shape_.begin(vertex_);
-    collect_centres(); // which loads all that there is around
+    collect_centres(); // loads everything around the vertex
     collect_neighbours(v);
     const bool is_whole =
         !box_ ||

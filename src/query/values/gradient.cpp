@@ -32,10 +32,11 @@ struct Determinant {
     bool is_sure() const { return std::fabs(value.high) > error; }
 };
 
-/// The entries are exact. A product of two is right to 5u², their difference to 3u² more, the
-/// product with a third to 5u² more, and the sum of three such to twice 3u²: to 19u² of the
-/// permanent altogether, to 32u² as it is computed here. Nothing overflows, and what underflows is
-/// less than a part of 2^-110, as long as all entries and the permanent are within bounds.
+/// The entries are exact. A product of two has an error of 5u², their difference 3u² more, the
+/// product with a third 5u² more, and the sum of three such products twice 3u²: altogether 19u² of
+/// the permanent, or 32u² of the permanent as computed here. As long as all entries and the
+/// permanent are within bounds, nothing overflows, and what underflows is less than a part of
+/// 2^-110.
 template <int D>
 Determinant determinant_of(const typename LinearSystem<DoubleDouble, D>::Matrix &matrix) {
     typename LinearSystem<double, D>::Matrix rounded;
@@ -51,13 +52,13 @@ Determinant determinant_of(const typename LinearSystem<DoubleDouble, D>::Matrix 
             is_bounded ? 32 * roundoff * roundoff * permanent : INFINITY};
 }
 
-/// The quotient, rounded once; nothing if it may be another double.
+/// The quotient, rounded once; nothing if the error could lead to another double.
 std::optional<double> rounded_quotient(const Determinant &part, const Determinant &whole) {
     if (!part.is_sure() || !whole.is_sure()) return std::nullopt;
     const DoubleDouble quotient = part.value / whole.value;
     const double size = std::fabs(quotient.high);
     if (!(size > 1e-200 && size < 1e200)) return std::nullopt;
-    // Twice what it may be.
+    // Twice the largest possible error.
     const double error = 4 * size *
                          (part.error / std::fabs(part.value.high) +
                           whole.error / std::fabs(whole.value.high) + 16 * roundoff * roundoff);

@@ -26,7 +26,7 @@ template <int D> Point<D> plus(Point<D> a, const Point<D> &b) {
 Point<3> times(const Point<3> &a, const Point<3> &b) {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
-/// b² − a², of vectors that may differ by little.
+/// b² − a², for vectors that may differ by little.
 template <int D> double growth(const Point<D> &a, const Point<D> &b) {
     return dot<D>(minus<D>(b, a), plus<D>(b, a));
 }
@@ -72,8 +72,8 @@ template <int D> void Sibson<D>::see(Cache<D> &cache, const Point<D> &p) {
                                 std::abs(cache.point(numbers_[i])[axis] * part - p[axis] * part));
         return most;
     };
-    // Powers of two, so that nothing is rounded: a part, if differences overflow, and two factors,
-    // since one may be beyond the range of doubles.
+    // Powers of two, so that nothing is rounded: a part for the case that differences overflow, and
+    // two factors, since their product may be beyond the range of doubles.
     double most = extent(1);
     scale_[0] = std::isfinite(most) ? 1 : 0.25;
     if (scale_[0] != 1) most = extent(scale_[0]);
@@ -115,10 +115,10 @@ template <int D> void Sibson<D>::order_zone(Cache<D> &cache) {
               [](const Place &a, const Place &b) { return a.simplex < b.simplex; });
 }
 
-/// Of the sphere through so many neighbours, and through p if these are D.
+/// The centre of the sphere through n neighbours, and through p if n is D.
 template <int D> Point<D> Sibson<D>::centre(const std::uint32_t *numbers, int n) const {
     return solve<D>([&]<class T>() {
-        // The points as seen from p. In doubles they have been rounded, in rational numbers not.
+        // The points relative to p: rounded in doubles, exact in rational numbers.
         const auto point = [&](int i) {
             std::array<T, D> seen;
             for (int axis = 0; axis < D; ++axis)
@@ -129,7 +129,7 @@ template <int D> Point<D> Sibson<D>::centre(const std::uint32_t *numbers, int n)
                                  T(scale_[0]) * T(scale_[1]) * T(scale_[2]);
             return seen;
         };
-        std::array<T, D> from; // the first of them, or p
+        std::array<T, D> from; // the first point, or p
         from.fill(T(0));
         if (n > D) from = point(D);
         LinearSystem<T, D> system;
@@ -190,7 +190,7 @@ template <int D> void Sibson<D>::add_simplex(Cache<D> &cache, std::size_t n) {
             std::lower_bound(sorted_.begin(), sorted_.end(), beyond,
                              [](const Place &place, Handle h) { return place.simplex < h; });
         const bool is_inner = at != sorted_.end() && at->simplex == beyond;
-        if (is_inner && at->number < n) continue; // added from there
+        if (is_inner && at->number < n) continue; // the other simplex adds it
         const std::array<std::uint32_t, D> facet = facet_of(cache, zone_[member.found], i);
         if (is_inner) {
             add_side(facet, centres_[n], centres_[at->number]);
@@ -202,7 +202,8 @@ template <int D> void Sibson<D>::add_simplex(Cache<D> &cache, std::size_t n) {
 }
 
 template <> void Sibson<2>::add_ridges() {
-    // Between p and a vertex lies the edge from the centre of one facet of the rim to the next.
+    // Between p and a vertex lies the edge between the centres of two consecutive facets of the
+    // rim.
     for (const RimFacet &facet : rim_) {
         const Point<2> &a = seen_[facet.vertex[0]], &b = seen_[facet.vertex[1]], &y = facet.centre;
         shares_[facet.vertex[0]] += (y[1] * a[0] - y[0] * a[1]) / 2;
@@ -220,9 +221,9 @@ template <> void Sibson<3>::add_ridges() {
             for (int i = 0; i < 3; ++i) {
                 const std::uint32_t a = rim_[n].vertex[i], b = rim_[n].vertex[(i + 1) % 3];
                 const std::size_t beyond = to_bits(view.across(a, b));
-                if (beyond < n) continue; // added from there
+                if (beyond < n) continue; // the other facet adds it
                 const Point<3> turned = times(rim_[n].centre, rim_[beyond].centre);
-                // What is left of the dual of the edge from a to b goes the other way.
+                // The rest of the dual of the edge from a to b goes the other way.
                 const Point<3> edge = minus<3>(seen_[b], seen_[a]);
                 const double share =
                     dot<3>(turned, edge) * growth<3>(seen_[a], seen_[b]) / (4 * dot<3>(edge, edge));
@@ -235,12 +236,12 @@ template <> void Sibson<3>::add_ridges() {
 template <int D> bool Sibson<D>::normalize() {
     double sum = 0;
     for (double &share : shares_) {
-        share = std::max(share, 0.0); // what is not is rounding
+        share = std::max(share, 0.0); // a negative share is a rounding error
         sum += share;
     }
     if (!(sum > 0) || !std::isfinite(sum)) return false;
-    // The mean of the neighbours is p, unless circumcentres are so far away that the cell is lost
-    // in their rounding.
+    // The mean of the neighbours is p, unless circumcentres are so far away that rounding loses the
+    // cell.
     Point<D> mean{};
     for (std::size_t i = 0; i < shares_.size(); ++i) {
         shares_[i] /= sum;

@@ -11,7 +11,7 @@ namespace abacus {
 
 namespace {
 
-/// Triangles that a flood may meet.
+/// How many triangles a flood may meet.
 constexpr std::size_t most_met = 1024;
 
 bool is_strictly_inside(const Box<2> &box, const Point<2> &p) {
@@ -20,7 +20,7 @@ bool is_strictly_inside(const Box<2> &box, const Point<2> &p) {
 
 } // namespace
 
-/// What of the plane is asked for: the triangle, in the window if `inside` is.
+/// The requested part of the plane: the triangle, clipped to the window if `inside` is in it.
 class Overlaps::Area final : public Region<2> {
 public:
     Area(const Asked &t, const Box<2> &window) : t_(t), window_(window) {}
@@ -35,7 +35,7 @@ public:
     bool may_meet(const Box<2> &box) const override {
         return may_meet_window(box) && meets<2>(t_.corners, box);
     }
-    /// Also where it touches the facet: then nothing overlaps.
+    /// True even if the triangle touches the facet: then nothing overlaps.
     bool lies_beyond(const Corners<2> &facet) const override {
         return std::all_of(t_.corners.begin(), t_.corners.end(), [&](const Point<2> *corner) {
             return facet_side<2>(facet, 2, *corner) >= 0;
@@ -62,7 +62,7 @@ Overlaps::Overlaps(const Host &host, const abacus_facts &facts, std::uint32_t at
         search_.emplace(host, page_attributes(facts.columns), cache_bytes / 2);
 }
 
-// The hull's edges, from one that is seen from far away.
+// Follows the hull's edges, from one that is visible from far away.
 Box<2> Overlaps::around_all() {
     if (reader_.is_empty()) return {};
     if (!reader_.is_delaunay()) return reader_.boxes().around_all();
@@ -90,7 +90,8 @@ void Overlaps::each(const Corners<2> &triangle, const Visit &visit) {
         scan_pages(t, visit);
 }
 
-/// The middle of the triangle or, if that is not in the window, of the triangle's box there.
+/// Chooses the middle of the triangle or, if that is outside the window, of the triangle's box
+/// there.
 Overlaps::Asked Overlaps::asked(const Corners<2> &triangle) const {
     Box<2> box;
     for (const Point<2> *corner : triangle) box.extend(*corner);

@@ -10,7 +10,7 @@ namespace abacus {
 
 namespace {
 
-/// Simplices after which it is time for progress: some milliseconds, between two meshes.
+/// Simplices between two reports of progress: some milliseconds, between two meshes.
 constexpr std::uint64_t simplices_at_once = 1024;
 
 /// A simplex with its corners in lexicographic order, and their values.
@@ -32,7 +32,7 @@ template <int D> struct ValuedSimplex {
     bool has_values() const {
         return std::all_of(value.begin(), value.end(), [](double v) { return std::isfinite(v); });
     }
-    /// As seen from its first corner.
+    /// Relative to its first corner.
     Piece<D> piece() const {
         Piece<D> piece;
         for (int i = 0; i <= D; ++i) {
@@ -95,7 +95,7 @@ void clip_box(const Piece<D> &piece, const Box<D> &box, Visit &&visit) {
     }
 }
 
-/// A piece of the surface itself, in space.
+/// The area of the surface itself, in space.
 double surface_of(const Piece<2> &piece) {
     const auto raised = [&](int i) {
         return Point<3>{piece.corner[i][0], piece.corner[i][1], piece.value[i]};
@@ -105,8 +105,8 @@ double surface_of(const Piece<2> &piece) {
 
 double surface_of(const Piece<3> &piece) { return section_area(piece, piece.value); }
 
-/// Calls visit(simplex, values) for each simplex of a window with what its corners carry, and says
-/// how many have been.
+/// Calls visit(simplex, values) for each simplex of a window with the values at its corners, and
+/// reports progress.
 template <int D, class Visit>
 void each_simplex(const Host &host, const abacus_facts &facts, const abacus_surface &surface,
                   const abacus_window &window, Visit visit) {
@@ -126,26 +126,26 @@ void each_simplex(const Host &host, const abacus_facts &facts, const abacus_surf
 
 // ---- Between two meshes ------------------------------------------------------------------
 
-/// The edges of a triangle, as seen from some corner.
+/// The edges of a triangle, relative to the first corner of `seen_from`.
 class Edges {
 public:
     Edges(const ValuedSimplex<2> &triangle, const ValuedSimplex<2> &seen_from) {
         for (int i = 0; i < 3; ++i) corner_[i] = seen_from.seen_from_first(triangle.corner[i]);
         sign_ = orientation(triangle.corner[0], triangle.corner[1], triangle.corner[2]);
     }
-    /// How far a point is inside of the edge opposite a corner, times the length of the edge. The
-    /// same of the edge's two triangles, but for the sign.
+    /// How far a point is inside the edge opposite a corner, times the length of the edge. The two
+    /// triangles of the edge get the same value, except for the sign.
     double side(int opposite, const Point<2> &p) const {
         const Point<2> &a = corner_[opposite == 0 ? 1 : 0], &b = corner_[opposite == 2 ? 1 : 2];
         const double left = (b[0] - a[0]) * (p[1] - a[1]) - (b[1] - a[1]) * (p[0] - a[0]);
         return (opposite == 1) == (sign_ > 0) ? -left : left;
     }
-    /// What varies linearly in the triangle, at a point inside of it; no rounding leads beyond the
+    /// A linear function on the triangle, at a point inside it. Rounding never leads beyond the
     /// values at the corners.
     double value_at(const Point<2> &p, const std::array<double, 3> &values) const {
         double weight[3], sum = 0;
         for (int i = 0; i < 3; ++i) sum += weight[i] = std::max(side(i, p), 0.0);
-        if (!(sum > 0)) return values[0]; // all of the triangle is too small for a product
+        if (!(sum > 0)) return values[0]; // the triangle is too small for products
         double value = 0;
         for (int i = 0; i < 3; ++i) value += values[i] * (weight[i] / sum);
         return value;
@@ -168,8 +168,8 @@ private:
     int sign_;
 };
 
-/// Adds what lies between two triangles. The smaller one is cut at the edges of the other: so
-/// roundings are those of its own lengths. Which one that is does not depend on which is the first.
+/// Adds the volume between two triangles. The smaller one is cut at the edges of the other, so that
+/// rounding errors are relative to its own lengths. The choice does not depend on their order.
 void add_between(const ValuedSimplex<2> &first, const ValuedSimplex<2> &second,
                  const Box<2> &window, Volume<2> &volume) {
     const Piece<2> whole_first = first.piece(), whole_second = second.piece();
@@ -248,7 +248,7 @@ abacus_volume volume_between(const Host &host, const abacus_facts &facts,
                              std::size_t cache_bytes) {
     const Box<2> window = box_of<2>(surface.window);
     Overlaps overlaps(other_host, other, other_attribute, surface.max_edge, window, cache_bytes);
-    // A small window needs the pages of its own alone, not those of a hull.
+    // A small window needs only its own pages, not those of the hull.
     const abacus_window around =
         surface.window.kind == ABACUS_NO_WINDOW ? window_of(overlaps.around_all()) : surface.window;
     Volume<2> volume;

@@ -8,7 +8,7 @@
 #include "pg/mesh/header.h"
 #include "pg/sql/arguments/attribute.h"
 
-/* The number of the attribute, or -1 if none is given. */
+/* The number of the attribute; -1 if none is given. */
 int
 attribute_or_none(FunctionCallInfo fcinfo, int argument, abacus_names names)
 {
@@ -23,7 +23,7 @@ attribute_or_none(FunctionCallInfo fcinfo, int argument, abacus_names names)
 	return number;
 }
 
-/* Of a mesh that has one attribute this, if none is given. */
+/* If none is given and the mesh has only one attribute, this one. */
 uint32
 attribute_argument(FunctionCallInfo fcinfo, int argument, abacus_names names)
 {

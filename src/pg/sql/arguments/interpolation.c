@@ -1,7 +1,7 @@
 /*
  * interpolation.c: the optional arguments of functions that interpolate.
  *
- * NULL is as good as an argument left out.
+ * NULL means the same as omitting an argument.
  */
 #include "postgres.h"
 
@@ -18,11 +18,11 @@
 #include "pg/sql/arguments/interpolation.h"
 #include "pg/sql/arguments/word.h"
 
-/* By the numbers of the core */
+/* In the order of the core's numbers */
 static const char *const methods[] = {"linear", "natural", "nearest", NULL};
 static const char *const outsides[] = {"null", "nearest", NULL};
 
-/* Whether the mesh, or one of so many arguments that say where, is NULL: then there is no answer. */
+/* Whether the mesh or one of the `given` coordinates is NULL: then the answer is NULL. */
 bool
 interpolation_of_null(FunctionCallInfo fcinfo, int given)
 {
@@ -54,7 +54,7 @@ interpolation_how(FunctionCallInfo fcinfo, int method, abacus_interpolation *how
 	interpolation_max_edge(fcinfo, method + 2, how);
 }
 
-/* One attribute, by its name; the only one if no name is given. */
+/* One attribute, by its name; if no name is given, the only one. */
 void
 interpolation_attribute(FunctionCallInfo fcinfo, int argument, abacus_names names,
 						abacus_interpolation *how)
@@ -64,8 +64,8 @@ interpolation_attribute(FunctionCallInfo fcinfo, int argument, abacus_names name
 }
 
 /*
- * Names of attributes: an array, or one in a text, or a text that is a name. What is in quotes
- * PostgreSQL takes for a text where there is a form with one.
+ * Names of attributes: an array, or an array written as a text, or a text that is a name.
+ * PostgreSQL takes a quoted argument for a text if there is a form of the function with a text.
  */
 static ArrayType *
 names_argument(FunctionCallInfo fcinfo, int argument)
@@ -85,7 +85,7 @@ names_argument(FunctionCallInfo fcinfo, int argument)
 	return DatumGetArrayTypeP(OidInputFunctionCall(input, given, parameter, -1));
 }
 
-/* Any number of attributes, in the order of their names; all of them if none are given. */
+/* Any number of attributes, in the order of their names; if none are given, all of them. */
 void
 interpolation_attributes(FunctionCallInfo fcinfo, int argument, abacus_names names,
 						 abacus_interpolation *how)

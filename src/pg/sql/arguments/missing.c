@@ -1,5 +1,5 @@
 /*
- * missing.c: why an answer about values is empty.
+ * missing.c: explains why an answer about values is empty.
  */
 #include "postgres.h"
 
@@ -10,8 +10,8 @@
 #include "pg/sql/arguments/missing.h"
 
 /*
- * For an answer without a row: a NOTICE if no vertex of the mesh has a value. The heads of the
- * columns tell, so no page without a value is decoded for it.
+ * For an answer without rows: a NOTICE if no vertex of the mesh has a value. The heads of the
+ * columns show that, so no page without a value is decoded.
  */
 void
 notice_missing_values(Reader *reader, uint32 attribute)

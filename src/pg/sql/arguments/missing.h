@@ -1,5 +1,5 @@
 /*
- * missing.h: why an answer about values is empty.
+ * missing.h: explains why an answer about values is empty.
  */
 #ifndef ABACUS_MISSING_H
 #define ABACUS_MISSING_H

@@ -1,5 +1,5 @@
 /*
- * place.c: a place given as x, y and, in space, z behind the mesh, and k behind it.
+ * place.c: a place given as x, y and, in space, z after the mesh, and k after them.
  */
 #include "postgres.h"
 
@@ -9,8 +9,8 @@
 #include "pg/sql/arguments/place.h"
 
 /*
- * Reads the `given` coordinates behind the first argument. False if one is
- * infinite; NaN is an error.
+ * Reads the `given` coordinates after the first argument. False if one is infinite; NaN is an
+ * error.
  */
 bool
 place_arguments(FunctionCallInfo fcinfo, int given, const abacus_form *form, double *point)
@@ -38,7 +38,7 @@ place_arguments(FunctionCallInfo fcinfo, int given, const abacus_form *form, dou
 	return finite;
 }
 
-/* Where k follows: a z that is missing may have been taken for it. */
+/* For functions where k follows: it may have been meant as a z that is missing. */
 void
 place_require_z(int given, const abacus_form *form)
 {
@@ -65,7 +65,7 @@ place_count_argument(FunctionCallInfo fcinfo, int argument, const char *rows)
 	return (uint64) k;
 }
 
-/* Reads coordinates where an infinite coordinate is an error, too. */
+/* Reads coordinates, where an infinite one is also an error. */
 void
 place_arguments_finite(FunctionCallInfo fcinfo, int given, const abacus_form *form,
 					   double *point)

@@ -1,5 +1,5 @@
 /*
- * place.h: a place given as x, y and, in space, z behind the mesh, and k behind it.
+ * place.h: a place given as x, y and, in space, z after the mesh, and k after them.
  */
 #ifndef ABACUS_PLACE_H
 #define ABACUS_PLACE_H

@@ -1,11 +1,9 @@
 /*
- * places.c: the places of a query, read for a function that answers all of
- * them.
+ * places.c: reads the places of a query, for a function that answers all of them.
  *
- * All places are read before the first is answered, since they are brought into
- * the order of the curve; so the rows go into a tuplestore, as those of a
- * function in FROM do anyway. The session's cache has no part in it: the core
- * looks for all places of a page together, and keeps none.
+ * All places are read before the first is answered, since they are sorted along the curve. So the
+ * rows go into a tuplestore, as those of a function in FROM do anyway. The session's cache is not
+ * used: the core answers all places of a page together, and keeps none.
  */
 #include "postgres.h"
 

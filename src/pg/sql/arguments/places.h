@@ -1,6 +1,5 @@
 /*
- * places.h: the places of a query, read for a function that answers all of
- * them.
+ * places.h: reads the places of a query, for a function that answers all of them.
  */
 #ifndef ABACUS_PLACES_H
 #define ABACUS_PLACES_H
@@ -11,8 +10,8 @@
 #include "pg/mesh/reader.h"
 
 /*
- * Made by places_read(), or by places_open() and places_fetch() where arguments depend on the
- * mesh; what is asked at each place the caller asks the core.
+ * Made by places_read(), or by places_open() and places_fetch() if arguments depend on the mesh.
+ * The caller then puts its question for each place to the core.
  */
 typedef struct PlacesRead
 {
@@ -20,9 +19,9 @@ typedef struct PlacesRead
 	Host	   *host;
 	uint32		dimension;
 	abacus_names names;
-	abacus_places *places;		/* of a mesh */
-	abacus_octree_places *octants;	/* of an octree */
-	uint64		count;			/* places */
+	abacus_places *places;		/* for a mesh */
+	abacus_octree_places *octants;	/* for an octree */
+	uint64		count;			/* number of places */
 } PlacesRead;
 
 extern void places_open(PlacesRead *read, Oid mesh, uint32 type, const char *query);

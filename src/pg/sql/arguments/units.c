@@ -1,9 +1,9 @@
 /*
- * units.c: coordinates in degrees, and what does not go with them.
+ * units.c: coordinates in degrees, and calls that do not fit them.
  *
- * Abacus computes with plain coordinates. Where the SRID of a mesh, or a window, shows that a result
- * cannot be what is wanted, a NOTICE says so: once a statement, for a function may be called for
- * every row.
+ * Abacus computes with plain coordinates. If the SRID of a mesh, or a window, shows that a result
+ * cannot be the intended one, a NOTICE says so: once for each statement, since a function may be
+ * called for every row.
  */
 #include "postgres.h"
 
@@ -21,16 +21,16 @@ typedef enum UnitsNote
 	NOTE_WINDOW = 8
 } UnitsNote;
 
-/* Of longitude and latitude; longitudes may go from 0 to 360. */
+/* Limits of longitude and latitude; longitudes may go from 0 to 360. */
 #define MOST_LONGITUDE 360.0
 #define MOST_LATITUDE 90.0
 
-/* What this statement has found out, and said. */
+/* What this statement has looked up and reported. */
 static struct
 {
 	TimestampTz statement;
 	int			said;
-	int32		srid;			/* 0: none has been looked up */
+	int32		srid;			/* 0: nothing looked up yet */
 	bool		is_geographic;
 } current;
 
@@ -58,7 +58,7 @@ is_geographic(const abacus_form *form)
 	return current.is_geographic;
 }
 
-/* Whether a note is to be made: not if it has been. */
+/* Whether to give a notice: not if this statement has given it already. */
 static bool
 begins(UnitsNote note)
 {
@@ -68,7 +68,7 @@ begins(UnitsNote note)
 	return true;
 }
 
-/* Of a mesh in degrees gradients and slopes are of no use. */
+/* Gradients and slopes of a mesh in degrees are useless. */
 void
 units_tell_slopes(const abacus_form *form)
 {
@@ -81,7 +81,7 @@ units_tell_slopes(const abacus_form *form)
 						 "for instance with ST_Transform of PostGIS.")));
 }
 
-/* Nor are areas and volumes. */
+/* So are areas and volumes. */
 void
 units_tell_volumes(const abacus_form *form)
 {
@@ -94,7 +94,7 @@ units_tell_volumes(const abacus_form *form)
 						 "for instance with ST_Transform of PostGIS.")));
 }
 
-/* Hill shading of heights in metres over degrees sees cliffs only. */
+/* Hill shading with heights in metres over degrees shows only cliffs. */
 void
 units_tell_shading(const abacus_form *form, double exaggeration)
 {
@@ -115,8 +115,8 @@ may_be_degrees(const double *lower, const double *upper)
 }
 
 /*
- * A window beside the mesh where either is in degrees and the other cannot be. Elsewhere an empty
- * answer is as good as any.
+ * The window misses the mesh, and one of the two is in degrees while the other cannot be. In other
+ * cases an empty answer needs no explanation.
  */
 void
 units_tell_window(const abacus_form *form, const double *lower, const double *upper)

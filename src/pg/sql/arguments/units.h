@@ -1,5 +1,5 @@
 /*
- * units.h: coordinates in degrees, and what does not go with them.
+ * units.h: coordinates in degrees, and calls that do not fit them.
  */
 #ifndef ABACUS_UNITS_H
 #define ABACUS_UNITS_H

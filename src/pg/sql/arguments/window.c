@@ -1,6 +1,6 @@
 /*
- * window.c: the part of a mesh that a call is about: a box, which may be flat,
- * or a ball; and which simplices there, by the length of edges and by a label.
+ * window.c: the part of a mesh that a call asks for: a box, which may be flat, or a ball; and which
+ * simplices in it, by the length of edges and by a label.
  */
 #include "postgres.h"
 
@@ -17,7 +17,7 @@
 #include "pg/sql/arguments/units.h"
 #include "pg/sql/arguments/window.h"
 
-/* A closed box; all of the mesh if neither corner is given. */
+/* A closed box; the whole mesh if neither corner is given. */
 static void
 window_of_box(const abacus_form *form, ArrayType *lower, ArrayType *upper,
 			  abacus_window *window)
@@ -75,8 +75,8 @@ window_of_ball(const abacus_form *form, ArrayType *center, double radius,
 }
 
 /*
- * A corner: an array, or one in a text. What is in quotes PostgreSQL takes for a text where there is a
- * form with one, so that '{0,0}', '{9,9}' are corners.
+ * A corner: an array, or an array written as a text. PostgreSQL takes a quoted argument for a text
+ * if there is a form of the function with a text, so '{0,0}', '{9,9}' must be corners.
  */
 static ArrayType *
 corner(FunctionCallInfo fcinfo, int argument)
@@ -115,7 +115,7 @@ window_arguments(FunctionCallInfo fcinfo, int first, WindowForm kind,
 		window_of_ball(form, PG_GETARG_ARRAYTYPE_P(first), PG_GETARG_FLOAT8(first + 1), window);
 }
 
-/* The longest edge that is wanted, or that simplices may have; 0 if any may be. */
+/* The longest edge to return, or that simplices may have; 0 if any length is allowed. */
 double
 window_max_edge(FunctionCallInfo fcinfo, int argument)
 {
@@ -130,8 +130,8 @@ window_max_edge(FunctionCallInfo fcinfo, int argument)
 }
 
 /*
- * The range of what is named: the first of two arguments is its name, `what` it is. Without a range any
- * value will do. False if nothing is named.
+ * The range of a label or an attribute: the first of two arguments is its name, `what` says which
+ * it is. Without a range every value will do. False if no name is given.
  */
 static bool
 has_range(FunctionCallInfo fcinfo, int first, const char *what, const char *example,
@@ -160,7 +160,7 @@ has_range(FunctionCallInfo fcinfo, int first, const char *what, const char *exam
 	return true;
 }
 
-/* The label that simplices must have, and its range; false if no label is wanted. */
+/* The label that simplices must have, and its range; false if no label is required. */
 bool
 window_label(FunctionCallInfo fcinfo, int first, abacus_names names, abacus_range *range)
 {
@@ -171,7 +171,7 @@ window_label(FunctionCallInfo fcinfo, int first, abacus_names names, abacus_rang
 	return true;
 }
 
-/* The attribute that vertices must have, and its range; false if no attribute is wanted. */
+/* The attribute that vertices must have, and its range; false if no attribute is required. */
 bool
 window_attribute(FunctionCallInfo fcinfo, int first, abacus_names names,
 				 abacus_range *range)

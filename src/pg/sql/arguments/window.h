@@ -1,5 +1,5 @@
 /*
- * window.h: the part of a mesh that a call is about: where it is, and which simplices.
+ * window.h: the part of a mesh that a call asks for: where it is, and which simplices.
  */
 #ifndef ABACUS_WINDOW_H
 #define ABACUS_WINDOW_H
@@ -12,7 +12,7 @@
 /* Two arguments of a call. */
 typedef enum WindowForm
 {
-	WINDOW_BOX,					/* lower, upper: all of the mesh if both are NULL */
+	WINDOW_BOX,					/* lower, upper: the whole mesh if both are NULL */
 	WINDOW_BALL					/* center, radius */
 } WindowForm;
 

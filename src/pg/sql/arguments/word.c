@@ -1,8 +1,8 @@
 /*
  * word.c: an argument that is one of a few words.
  *
- * NULL is as good as the first of them. Functions of one place are called for
- * every row, so words are compared where they lie.
+ * NULL means the same as the first of them. Functions of one place are called for every row, so
+ * words are compared in place.
  */
 #include "postgres.h"
 
@@ -11,7 +11,7 @@
 #include "pg/port/port.h"
 #include "pg/sql/arguments/word.h"
 
-/* Number of the word that an argument is; of the first one if it is NULL. */
+/* The number of the given word; 0, the first, if it is NULL. */
 int
 word_argument(FunctionCallInfo fcinfo, int argument, const char *const *words, const char *name,
 			  const char *hint)

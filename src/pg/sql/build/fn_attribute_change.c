@@ -1,10 +1,10 @@
 /*
  * fn_attribute_change.c: abacus_add_attribute and abacus_drop_attribute.
  *
- * What vertices have is written anew, the simplices stay as they are, with their labels. A table that a mesh follows
- * has a column for each attribute, so such a mesh keeps its attributes. One that its owner, or who
- * calls, has published keeps those that it has. Foreign tables of others do not keep anybody from
- * dropping one: they say that it has gone when they are read.
+ * The attributes of vertices are rewritten; the simplices stay as they are, with their labels. A
+ * table that a mesh follows has a column for each attribute, so such a mesh keeps its attributes.
+ * So does a mesh that its owner, or the caller, has published. Foreign tables of others do not
+ * prevent dropping an attribute: they report that it is gone when they are read.
  */
 #include "postgres.h"
 
@@ -24,7 +24,7 @@
 SQL_FUNCTION(abacus_sql_add_attribute);
 SQL_FUNCTION(abacus_sql_drop_attribute);
 
-/* Opens a mesh that follows no table. */
+/* Opens a mesh; an error if it follows a table. */
 static Change *
 begin(FunctionCallInfo fcinfo, const char *command)
 {
@@ -34,7 +34,7 @@ begin(FunctionCallInfo fcinfo, const char *command)
 	return change;
 }
 
-/* Gives all points the attributes `source`, the numbers of those they have had. */
+/* Gives all points the attributes `source`, the numbers of their former ones. */
 static void
 end(Change *change, const uint32 *source, uint32 count, const char *added)
 {
@@ -74,7 +74,7 @@ abacus_sql_add_attribute(PG_FUNCTION_ARGS)
 	PG_RETURN_VOID();
 }
 
-/* Those of some tables that belong to the owner of the mesh or to the user, or the others. */
+/* The tables among some that belong to the mesh's owner or to the user; or the other ones. */
 static List *
 tables_of(List *tables, Oid mesh, bool own)
 {
@@ -93,8 +93,8 @@ tables_of(List *tables, Oid mesh, bool own)
 }
 
 /*
- * Foreign tables that show the mesh: an error if some are the owner's or the user's, who can unpublish
- * them. For those of others it is said what becomes of them.
+ * Foreign tables that show the mesh: an error if some belong to the owner or the user, who can
+ * unpublish them. If others own them, a notice says what happens to them.
  */
 static void
 check_shown(Oid mesh, const char *attribute)
@@ -118,7 +118,7 @@ check_shown(Oid mesh, const char *attribute)
 				 errhint("Ask their owners to unpublish the mesh and publish it again.")));
 }
 
-/* What comes behind the attribute moves up, which nobody sees who takes it by its position. */
+/* The attributes after this one move up, which users do not see who read them by position. */
 static void
 tell_of_moved(abacus_names names, uint32 dropped)
 {

@@ -2,8 +2,8 @@
  * fn_attributes.c: abacus_attributes and abacus_rename_attribute, the attributes
  * of a mesh or an octree and their names.
  *
- * The names are in the header. The values are only in the points or the leaves, so all of these
- * are read.
+ * The names are in the header. The values are only in the points or the leaves, so all of these are
+ * read.
  */
 #include "postgres.h"
 
@@ -35,7 +35,7 @@ enum
 	ATTRIBUTE_COLUMNS
 };
 
-/* The values of one attribute; no number among them: least and greatest are NaN. */
+/* The values of one attribute; least and greatest are NaN if there are none. */
 typedef struct Values
 {
 	double		least;
@@ -50,7 +50,7 @@ count_value(Values *values, double value)
 		values->nulls++;
 	else
 	{
-		values->least = fmin(values->least, value); /* of a NaN and a number, the number */
+		values->least = fmin(values->least, value); /* fmin() of a NaN and a number is the number */
 		values->greatest = fmax(values->greatest, value);
 	}
 }
@@ -75,7 +75,7 @@ read_values(Reader *reader, Values *values)
 			count_value(&values[i], vertex.attributes[i]);
 }
 
-/* The same of an octree: reads all leaves. */
+/* The same for an octree: reads all leaves. */
 static void
 read_octree_values(Reader *reader, Values *values)
 {

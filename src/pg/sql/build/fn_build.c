@@ -1,19 +1,17 @@
 /*
- * fn_build.c: abacus_build, staged points into the mesh in batches, each
- * committed.
+ * fn_build.c: abacus_build, which inserts staged points into the mesh in batches and commits each.
  *
- * A batch is a change like that of abacus_triangulate: all its pages and the new header
- * under one transaction. So whatever stops the build, the mesh has the points up to the
- * last batch, and the header says where to go on.
+ * A batch is a change like that of abacus_triangulate: all its pages and the new header in one
+ * transaction. So whatever stops the build, the mesh has the points up to the last batch, and the
+ * header says where to continue.
  *
- * At the end rows are moved to the beginning of their tables, if more than a
- * little of these is empty (compact.c), so that VACUUM can cut them. The vertex
- * table has only dead rows, as a rule, and is truncated.
+ * At the end, rows are moved to the beginning of their tables if more than a little of a table is
+ * empty (compact.c), so that VACUUM can cut it. The vertex table usually has only dead rows, and is
+ * truncated.
  *
- * From one batch to the next the core keeps its cache. What it holds of the mesh, the
- * places of stored pages included, stays true: a lock of the session keeps other
- * writers, VACUUM FULL and the like away until the end. That lock is not on the vertex
- * table, so nothing of that is kept.
+ * From one batch to the next the core keeps its cache. Its data about the mesh, including the
+ * places of stored pages, stay true: a lock of the session keeps other writers, VACUUM FULL and the
+ * like away until the end. That lock does not cover the vertex table, so nothing of that is kept.
  */
 #include "postgres.h"
 
@@ -35,7 +33,7 @@
 
 SQL_FUNCTION(abacus_sql_build);
 
-/* Whether the call may commit; as SPI_commit() would find later. */
+/* Whether the call may commit, checked before SPI_commit() would find that it may not. */
 static void
 check_commits(FunctionCallInfo fcinfo)
 {
@@ -51,7 +49,7 @@ check_commits(FunctionCallInfo fcinfo)
 						 "use abacus_triangulate().")));
 }
 
-/* One batch, from where the header stands; false if nothing could be inserted. */
+/* Inserts one batch from where the header says; false if nothing could be inserted. */
 static bool
 insert_batch(Writer *writer, abacus_build *build, uint64 limit)
 {
@@ -70,8 +68,8 @@ insert_batch(Writer *writer, abacus_build *build, uint64 limit)
 }
 
 /*
- * A change of its own, where it is due: a mesh whose domain does not fit its points gets other
- * keys. Returns whether there is something to commit.
+ * A change of its own, if it is due: a mesh whose domain does not fit its points gets new keys.
+ * Returns whether there is something to commit.
  */
 static bool
 rekey(Writer *writer, abacus_build *build)
@@ -90,8 +88,7 @@ rekey(Writer *writer, abacus_build *build)
 }
 
 /*
- * A change of its own, too: a mesh with many attributes that was made when they went into the
- * simplex pages gets them apart.
+ * Also a change of its own: an old mesh with many attributes in its simplex pages gets them apart.
  */
 static void
 move_attributes_apart(Writer *writer)
@@ -116,7 +113,7 @@ move_attributes_apart(Writer *writer)
 			 errdetail("It now has format 4; versions of Abacus that read only format 3 cannot read it.")));
 }
 
-/* Ends a change and goes on with the next one. */
+/* Ends a change and begins the next one. */
 static void
 commit(Writer *writer)
 {
@@ -128,7 +125,7 @@ commit(Writer *writer)
 	superseded_reclaim(simplices->superseded, simplices->heap);
 }
 
-/* Inserts all points that wait. */
+/* Inserts all waiting points. */
 static void
 insert_all(Writer *writer, uint64 batch)
 {
@@ -150,7 +147,7 @@ insert_all(Writer *writer, uint64 batch)
 		commit(writer);
 	notice_duplicates(writer, duplicates, false);
 	notice_waiting(writer);
-	host_own(host, NULL, NULL);	/* the core would look for pages where they were */
+	host_own(host, NULL, NULL);	/* the core would look for pages in their old places */
 }
 
 /* abacus_build(mesh regclass, batch bigint), a procedure */
@@ -177,10 +174,10 @@ abacus_sql_build(PG_FUNCTION_ARGS)
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
 				 errmsg("batch must be at least 1")));
-	writer_prevent_read_only(mesh, "abacus_build()");	/* before the lock, which a standby has not */
+	writer_prevent_read_only(mesh, "abacus_build()");	/* before the lock, which a standby lacks */
 
 	SPI_connect_ext(SPI_OPT_NONATOMIC); /* its memory outlives transactions */
-	pending_settle(mesh);		/* not in the middle of it, by a commit */
+	pending_settle(mesh);		/* not in the middle of the build, by a commit */
 	lock = mesh_lock_for_session(mesh);
 	writer_begin(&writer, mesh, MESH_WRITE, "abacus_build()");
 	host = writer.host;
@@ -188,14 +185,14 @@ abacus_sql_build(PG_FUNCTION_ARGS)
 	simplices = &mesh_pages(host)->simplices;
 	simplices->superseded = superseded_create(host->home);
 	progress_in_batches(&host->progress, facts->census.staged - facts->census.inserted);
-	/* what is no Delaunay triangulation has no points that wait, and may yet have to be bound */
+	/* a mesh that is not Delaunay has no waiting points, but may still need binding */
 	if (abacus_is_editable(facts->standing))
 		insert_all(&writer, (uint64) batch);
 	compact(&writer, true, true);
 	vertices = mesh_pages_vertex_table(mesh_pages(host));
 	writer_close(&writer);
 	if (truncate_if_empty(vertices))
-		SPI_commit();			/* lets readers at it */
+		SPI_commit();			/* lets readers see it */
 	SPI_finish();
 	UnlockRelationIdForSession(&lock, ShareRowExclusiveLock);
 	PG_RETURN_VOID();

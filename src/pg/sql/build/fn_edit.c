@@ -1,10 +1,9 @@
 /*
- * fn_edit.c: abacus_insert and abacus_delete, points into a mesh and out of it,
- * without vertex pages between; and the same with the simplices that they create and
- * remove as rows.
+ * fn_edit.c: abacus_insert and abacus_delete, which insert and delete points without vertex pages
+ * in between; and the forms that return the created and removed simplices as rows.
  *
- * All pages are written before the function returns, once each. A point costs the pages
- * that its cavity or star touches; many points in one call share them.
+ * All pages are written before the function returns, once each. A point costs the pages that its
+ * cavity or star touches; many points in one call share them.
  */
 #include "postgres.h"
 
@@ -24,7 +23,7 @@ SQL_FUNCTION(abacus_sql_delete);
 SQL_FUNCTION(abacus_sql_insert_returning);
 SQL_FUNCTION(abacus_sql_delete_returning);
 
-/* Columns of the simplices returned: those of abacus_simplex between two */
+/* Columns of the returned simplices: those of abacus_simplex between two others */
 enum
 {
 	CHANGED_CREATED,
@@ -33,7 +32,7 @@ enum
 	CHANGED_COLUMNS
 };
 
-/* What becomes of a point at the place of another, as an argument says. */
+/* What happens to a point at the place of another, from an argument. */
 static abacus_on_duplicate
 on_duplicate(text *given)
 {
@@ -75,7 +74,7 @@ put_simplex(void *context, int created, const abacus_simplex *simplex)
 	return ABACUS_HOST_OK;
 }
 
-/* Opens a mesh for a change; `answers` gets the simplices that it creates and removes, if any. */
+/* Opens a mesh for a change; `answers`, if not NULL, gets the created and removed simplices. */
 static Change *
 begin(Oid mesh, Answers *answers, const char *command)
 {
@@ -147,7 +146,7 @@ abacus_sql_insert_returning(PG_FUNCTION_ARGS)
 	PG_RETURN_NULL();
 }
 
-/* Takes the points of a prepared query away; returns how many there were. */
+/* Removes the points of a prepared query; returns how many there were. */
 static uint64
 delete_query(Oid mesh, Source *source, Answers *answers, const char *command)
 {

@@ -1,13 +1,12 @@
 /*
- * fn_estimate.c: how many rows functions that read a mesh return, told to the
- * planner by their support functions.
+ * fn_estimate.c: support functions that give the planner the number of rows of functions that read
+ * a mesh.
  *
- * As for any table of PostgreSQL, the size of the file is asked for, which costs a
- * system call. The last VACUUM or ANALYZE tells how full the file is: a page of it
- * holds 0 to 1 page of a mesh, since old versions lie beside the new ones. What a page
- * of a mesh holds is taken as a constant. The header would tell exactly, but it is a
- * row, with privileges and a snapshot of its own, and the user who plans a query may
- * lack the right to run it.
+ * As for any table of PostgreSQL, the estimate reads the size of the file, which costs a system
+ * call. The last VACUUM or ANALYZE shows how full the file is: a page of it holds 0 to 1 page of a
+ * mesh, since old versions lie beside the new ones. The number of simplices in a page is assumed to
+ * be constant. The header has the exact number, but it is a row, with privileges and a snapshot of
+ * its own, and the user who plans a query may lack the right to run it.
  *
  * A relation that is not a mesh, or is not known yet, gets the estimate of CREATE FUNCTION.
  * The function reports such errors when it runs.
@@ -39,27 +38,29 @@ SQL_FUNCTION(abacus_sql_line_rows);
 SQL_FUNCTION(abacus_sql_raster_rows);
 SQL_FUNCTION(abacus_sql_contours_rows);
 
-/* Of fresh builds of uniform points, in the plane and in space (docs/benchmarks.md). */
+/* For fresh builds of uniform points, in the plane and in space (docs/benchmarks.md). */
 #define BYTES_PER_SIMPLEX 12.0
-/* Of octrees without attributes. */
+/* For octrees without attributes. */
 #define BYTES_PER_LEAF 0.5
-/* In the plane, by Euler's relation; in space it is 6.7 or so. */
+/* In the plane, by Euler's relation; in space it is about 6.7. */
 #define SIMPLICES_PER_VERTEX 2.0
-/* Of one that waits to be inserted, without attributes. */
+/* For a point that waits to be inserted, without attributes. */
 #define BYTES_PER_WAITING_POINT 32.0
-/* Of a mesh that is not known. */
+/* For an unknown mesh. */
 #define POINTS_OF_A_MESH 100000
 /* abacus_contours: the argument fixed_levels, */
 #define CONTOURS_FIXED_LEVELS 3
-/* ... levels where it has none, and lines of a level, times the root of the number of triangles. */
+/*
+ * ... levels of a mesh without it, and lines of a level, times the root of the number of triangles.
+ */
 #define LEVELS_OF_A_MAP 20
 #define LINES_OF_A_LEVEL 0.1
-/* Of n tetrahedra a plane cuts this times n^(2/3). */
+/* A plane cuts this times n^(2/3) of n tetrahedra. */
 #define CUT_BY_A_PLANE 2.0
 
 /*
- * Whether a table has a file here that can be read. An unlogged table has none on a standby.
- * Pages of a temporary table of another session may never have reached its file.
+ * Whether a table has a readable file here. An unlogged table has none on a standby. The pages of
+ * another session's temporary table may never have reached its file.
  */
 static bool
 has_readable_file(Relation rel)
@@ -70,9 +71,9 @@ has_readable_file(Relation rel)
 }
 
 /*
- * Bytes of a table's live pages; negative if there is no such table any more or nothing of it
- * can be read. As in pg_relation_size() it does not stay locked: users who may not read the
- * table should not hold up others.
+ * Bytes of a table's live pages; negative if the table no longer exists or cannot be read. As in
+ * pg_relation_size(), it does not stay locked: users who may not read the table should not hold up
+ * others.
  */
 static double
 live_bytes(Oid relid)
@@ -93,8 +94,8 @@ live_bytes(Oid relid)
 }
 
 /*
- * The mesh that a call is about: InvalidOid if that is not known before it runs, or not a
- * mesh. *none becomes true if it is NULL, for which the functions return nothing.
+ * The mesh of a call: InvalidOid if it is unknown before the call runs, or not a mesh. *none
+ * becomes true if it is NULL, since the functions then return no rows.
  */
 static Oid
 mesh_of_call(const SupportRequestRows *request, bool *none)
@@ -116,7 +117,7 @@ mesh_of_call(const SupportRequestRows *request, bool *none)
 	return mesh_of_table(relid) == relid ? relid : InvalidOid;
 }
 
-/* Answers a request for the number of rows; NULL where there is no answer. */
+/* Answers a request for the number of rows; NULL if there is no answer. */
 static Datum
 estimate(FunctionCallInfo fcinfo, double rows_per_simplex, bool waiting)
 {
@@ -166,9 +167,9 @@ is_null_argument(const SupportRequestRows *request, int argument)
 }
 
 /*
- * abacus_window_rows(internal) -> internal, for simplices of a window: arguments 1 and 2. How much
- * of the mesh a window has only the header and the pages tell, so PostgreSQL's own guess at a
- * range is taken; and again where they must have a label, argument 4.
+ * abacus_window_rows(internal) -> internal, for simplices of a window: arguments 1 and 2. Only the
+ * header and the pages show how much of the mesh a window has, so PostgreSQL's own guess for a
+ * range is used; it is used again if they must have a label, argument 4.
  */
 Datum
 abacus_sql_window_rows(PG_FUNCTION_ARGS)
@@ -186,7 +187,7 @@ abacus_sql_window_rows(PG_FUNCTION_ARGS)
 }
 
 /*
- * abacus_octant_rows(internal) -> internal, for leaves of an octree, all or those of a window, and
+ * abacus_octant_rows(internal) -> internal, for the leaves of an octree, all or in a window, and
  * for its nodes and elements.
  */
 Datum
@@ -243,9 +244,9 @@ abacus_sql_surface_rows(PG_FUNCTION_ARGS)
 }
 
 /*
- * abacus_line_rows(internal) -> internal, for functions that follow a line. Through all of a mesh in
- * the plane it passes about as many simplices as twice the root of their number; through one in
- * space it passes fewer.
+ * abacus_line_rows(internal) -> internal, for functions that follow a line. A line through a whole
+ * mesh in the plane crosses about twice as many simplices as the root of their number; in space it
+ * crosses fewer.
  */
 Datum
 abacus_sql_line_rows(PG_FUNCTION_ARGS)
@@ -258,7 +259,7 @@ abacus_sql_line_rows(PG_FUNCTION_ARGS)
 	PG_RETURN_POINTER(is_estimated ? request : NULL);
 }
 
-/* How many levels contours are drawn at; where that is not given, as many as a map has. */
+/* At how many levels contours are drawn; if that is not given, as many as a map has. */
 static double
 levels_of_call(const SupportRequestRows *request)
 {
@@ -277,9 +278,9 @@ levels_of_call(const SupportRequestRows *request)
 }
 
 /*
- * abacus_contours_rows(internal) -> internal, for abacus_contours. How many lines a level has
- * depends on the values alone. On a terrain small hills and hollows add lines, so there are more in a
- * larger mesh.
+ * abacus_contours_rows(internal) -> internal, for abacus_contours. The number of lines at a level
+ * depends on the values alone. On a terrain, small hills and hollows add lines, so there are more
+ * in a larger mesh.
  */
 Datum
 abacus_sql_contours_rows(PG_FUNCTION_ARGS)
@@ -293,8 +294,7 @@ abacus_sql_contours_rows(PG_FUNCTION_ARGS)
 }
 
 /*
- * Answers a request for the number of rows where a call has an argument that says so; NULL where it
- * is not known.
+ * Answers a request for the number of rows if an argument gives it; NULL if its value is unknown.
  */
 static Datum
 estimate_by_argument(FunctionCallInfo fcinfo, int argument)

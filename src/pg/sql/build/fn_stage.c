@@ -1,6 +1,6 @@
 /*
- * fn_stage.c: abacus_stage, points from a query into vertex pages, where they
- * wait for their insertion.
+ * fn_stage.c: abacus_stage, which writes points from a query into vertex pages, where they wait to
+ * be inserted.
  */
 #include "postgres.h"
 

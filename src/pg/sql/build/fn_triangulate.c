@@ -1,6 +1,6 @@
 /*
- * fn_triangulate.c: abacus_triangulate, staged points become simplex pages, or a query
- * becomes a finished mesh at once.
+ * fn_triangulate.c: abacus_triangulate, which turns staged points into simplex pages, or a query
+ * into a finished mesh at once.
  */
 #include "postgres.h"
 
@@ -35,7 +35,7 @@ abacus_sql_triangulate(PG_FUNCTION_ARGS)
 	PG_RETURN_INT64((int64) simplices);
 }
 
-/* Attributes are named after the columns behind the coordinates. */
+/* Names the attributes after the columns that follow the coordinates. */
 static void
 name_attributes(abacus_header *header, const Source *source)
 {
@@ -46,7 +46,7 @@ name_attributes(abacus_header *header, const Source *source)
 		const char *name = source_column_name(source, i);
 
 		shape_attribute(header, name);
-		if (header->facts.form.dimension == 2 && first == 3 && strcmp(name, "z") == 0) /* beside x and y */
+		if (header->facts.form.dimension == 2 && first == 3 && strcmp(name, "z") == 0) /* after x, y */
 			ereport(NOTICE,
 					(errmsg("column \"z\" is an attribute of a mesh of dimension 2"),
 					 errhint("Use dimension => 3 to make it a coordinate. To keep it as an "

@@ -1,8 +1,8 @@
 /*
- * fn_update.c: abacus_update, other attributes for points that stay where they are.
+ * fn_update.c: abacus_update, which gives points new attributes without moving them.
  *
- * The simplices stay as they are, too. So nothing is triangulated, and what is written are the pages
- * that have attributes.
+ * The simplices stay as they are, too. So nothing is triangulated, and only the pages with
+ * attributes are written.
  */
 #include "postgres.h"
 
@@ -16,8 +16,8 @@
 SQL_FUNCTION(abacus_sql_update);
 
 /*
- * Columns behind the coordinates are attributes by name. Their numbers go to `attributes`, which has
- * room for all; the shape is that of the rows.
+ * Columns after the coordinates are attributes by name. Their numbers go to `attributes`, which has
+ * room for all; returns the shape of the rows.
  */
 static abacus_header *
 shape_of_rows(const Source *source, const abacus_header *header, uint32 *attributes)
@@ -43,7 +43,7 @@ shape_of_rows(const Source *source, const abacus_header *header, uint32 *attribu
 	return shape;
 }
 
-/* There is no point at the place of a row. */
+/* An error: there is no point at the place of a row. */
 static void
 refuse_missing(const Change *change, const abacus_named_place *missing)
 {

@@ -1,9 +1,9 @@
 /*
  * fn_check.c: abacus_check, the exact verification of a mesh.
  *
- * The core verifies everything in the first call and keeps the faults. Without a
- * readable header the core cannot be asked. That is also a fault and not an error, and
- * so is a row under a key that the core does not have.
+ * The core verifies everything in the first call and keeps the faults. Without a readable header
+ * there is no call of the core. That is also a fault and not an error, and so is a row under a key
+ * that the core does not have.
  */
 #include "postgres.h"
 
@@ -24,9 +24,9 @@ SQL_FUNCTION(abacus_sql_check);
 typedef struct Checking
 {
 	Host	   *host;
-	bool		has_fault;		/* `fault`, before those that the core still has */
+	bool		has_fault;		/* `fault` comes before the core's remaining faults */
 	abacus_fault fault;
-	int64		code;			/* of its row */
+	int64		code;			/* of the faulty row */
 } Checking;
 
 static void
@@ -54,7 +54,7 @@ read_header(Checking *checking, abacus_header *header)
 	return !checking->has_fault;
 }
 
-/* Notes a damaged row with the numbers of attributes. */
+/* Notes a damaged row with the numbering of attributes. */
 static void
 check_numbers(Checking *checking, const abacus_columns *columns)
 {
@@ -65,7 +65,7 @@ check_numbers(Checking *checking, const abacus_columns *columns)
 	pfree(numbering);
 }
 
-/* Notes the first row besides those of the header where no page can be. */
+/* Notes the first row, besides the header's, in front of all pages. */
 static void
 look_before_pages(Checking *checking, const abacus_facts *facts)
 {
@@ -89,7 +89,7 @@ look_before_pages(Checking *checking, const abacus_facts *facts)
 		note_fault(checking, "interval", row.key, "A row lies before the beginning of the curve.");
 }
 
-/* Lets the core verify everything; it keeps at most so many faults. */
+/* Lets the core verify everything; it keeps at most this many faults. */
 static void
 check_pages(Checking *checking, Oid mesh, const abacus_facts *facts, int32 limit)
 {
@@ -103,7 +103,7 @@ check_pages(Checking *checking, Oid mesh, const abacus_facts *facts, int32 limit
 	host_own(host, check, (void (*) (void *)) abacus_check_close);
 }
 
-/* The code of the row that the core has found a fault in. */
+/* The code of the row in which the core has found a fault. */
 static int64
 row_code(const abacus_fault *fault)
 {
@@ -115,7 +115,7 @@ row_code(const abacus_fault *fault)
 	return (int64) fault->key.code;
 }
 
-/* What the core has found first, if anything. */
+/* Reads the core's first fault, if there is one. */
 static void
 look_for_first_fault(Checking *checking)
 {
@@ -127,7 +127,7 @@ look_for_first_fault(Checking *checking)
 		checking->code = row_code(&checking->fault);
 }
 
-/* Says how many simplices of a sound mesh are so flat that doubles do not tell their volume. */
+/* Reports how many simplices of a sound mesh are so flat that doubles do not give their volume. */
 static void
 notice_flat(const Checking *checking, Relation table, const abacus_form *form)
 {
@@ -209,7 +209,7 @@ abacus_sql_check(PG_FUNCTION_ARGS)
 		int32		limit;
 		MemoryContext old;
 
-		/* no row would say that all is well */
+		/* no row would mean that all is well */
 		if (PG_ARGISNULL(0) || PG_ARGISNULL(1))
 			ereport(ERROR,
 					(errcode(ERRCODE_NULL_VALUE_NOT_ALLOWED),

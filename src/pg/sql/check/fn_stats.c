@@ -23,7 +23,7 @@
 
 SQL_FUNCTION(abacus_sql_stats);
 
-/* One row for each counter of chapter 5; for a session's reading only those that move. */
+/* One row for each counter of chapter 5; for a session's reading only the counters that change. */
 static void
 put_counters(Figures *figures, const abacus_counters *counters, uint32 type, bool reading)
 {
@@ -96,7 +96,7 @@ put_sizes(Figures *figures, const Reader *reader, Oid vertices)
 				   "simplex table and index, per simplex");
 }
 
-/* For a mesh that is not Abacus' own, abacus_load() has found out what it is. */
+/* The kind of a mesh that is not Abacus' own, as abacus_load() found it. */
 static void
 put_delaunay(Figures *figures, abacus_delaunay delaunay)
 {
@@ -119,7 +119,7 @@ put_srid(Figures *figures, const abacus_form *form)
 				   "spatial reference system of the coordinates, as PostGIS numbers it");
 }
 
-/* Rows about what only some meshes have. */
+/* Rows for features that only some meshes have. */
 static void
 put_labels(Figures *figures, const abacus_facts *facts)
 {
@@ -145,7 +145,7 @@ put_octree_counts(Figures *figures, const abacus_facts *facts)
 	put_srid(figures, &facts->form);
 }
 
-/* Its table has octants where that of a mesh has simplices. */
+/* An octree's table has octants where a mesh's has simplices. */
 static void
 put_octree_sizes(Figures *figures, const Reader *reader)
 {
@@ -189,8 +189,8 @@ put_counts(Figures *figures, const abacus_facts *facts)
 }
 
 /*
- * A notice where the domain of a mesh does not fit its points and abacus_build() would choose
- * another one. There is none for a mesh that cannot be changed.
+ * A notice if the domain of a mesh does not fit its points and abacus_build() would choose another
+ * one. A mesh that cannot be changed gets none.
  */
 static void
 report_domain(Reader *reader)

@@ -1,6 +1,5 @@
 /*
- * drawing.c: what functions that draw have in common: arguments, and the
- * picture as a result.
+ * drawing.c: the common part of functions that draw: arguments, and the picture as a result.
  */
 #include "postgres.h"
 
@@ -15,7 +14,7 @@
 
 #define MAX_PIXELS 16384
 
-/* Pixels of a side; `otherwise` if they are not given. */
+/* The pixels of a side; `otherwise` if not given. */
 int32
 drawing_pixels(FunctionCallInfo fcinfo, int argument, int32 otherwise, const char *name)
 {
@@ -31,7 +30,7 @@ drawing_pixels(FunctionCallInfo fcinfo, int argument, int32 otherwise, const cha
 	return value;
 }
 
-/* A factor or length; 0 if it is not given. */
+/* A factor or length; 0 if not given. */
 double
 drawing_factor(FunctionCallInfo fcinfo, int argument, const char *name)
 {
@@ -44,7 +43,7 @@ drawing_factor(FunctionCallInfo fcinfo, int argument, const char *name)
 	return value;
 }
 
-/* Whether an argument is given that has to do with values; if there are none, tells so. */
+/* Whether an argument that needs values is given; a notice if there are no values. */
 bool
 drawing_is_given(FunctionCallInfo fcinfo, int argument, const char *name,
 				 const abacus_drawing *drawing)
@@ -64,7 +63,7 @@ drawing_range(FunctionCallInfo fcinfo, int argument, abacus_drawing *drawing)
 		shape_range(PG_GETARG_ARRAYTYPE_P(argument), "range", drawing->range);
 }
 
-/* By the numbers of the core, which begin with 1 */
+/* In the order of the core's numbers, which begin with 1 */
 static const char *const ramps[] = {"terrain", "strata", "viridis", "magma", "cividis", "grey",
 "diverging", NULL};
 
@@ -83,7 +82,7 @@ drawing_ramp(FunctionCallInfo fcinfo, int argument, abacus_drawing *drawing)
 		drawing->ramp = drawing_ramp_argument(fcinfo, argument);
 }
 
-/* The interval of contours; 0 if it is not given. */
+/* The interval of contours; 0 if not given. */
 double
 drawing_interval(FunctionCallInfo fcinfo, int argument)
 {
@@ -107,7 +106,7 @@ drawing_contours(FunctionCallInfo fcinfo, int argument, abacus_drawing *drawing)
 		drawing->contour_interval = drawing_interval(fcinfo, argument);
 }
 
-/* Ends the reading; the picture becomes a bytea. */
+/* Ends the reading; converts the picture to a bytea. */
 bytea *
 drawing_finish(Host *host, const abacus_picture *picture)
 {

@@ -1,5 +1,5 @@
 /*
- * drawing.h: what functions that draw have in common.
+ * drawing.h: the common part of functions that draw.
  */
 #ifndef ABACUS_DRAWING_H
 #define ABACUS_DRAWING_H

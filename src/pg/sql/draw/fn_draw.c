@@ -1,6 +1,6 @@
 /*
- * fn_draw.c: abacus_draw, abacus_draw_section and abacus_draw_volume, pictures
- * of a mesh as PNG. The first two take an octree as well.
+ * fn_draw.c: abacus_draw, abacus_draw_section and abacus_draw_volume, pictures of a mesh as PNG.
+ * The first two also draw octrees.
  */
 #include "postgres.h"
 
@@ -24,7 +24,7 @@ SQL_FUNCTION(abacus_sql_draw);
 SQL_FUNCTION(abacus_sql_draw_section);
 SQL_FUNCTION(abacus_sql_draw_volume);
 
-/* Arguments of both, in a row */
+/* Arguments of both, in order */
 enum
 {
 	STYLE_RAMP,
@@ -88,7 +88,7 @@ window(const abacus_form *mesh, ArrayType *lower, ArrayType *upper, abacus_drawi
 	memcpy(drawing->upper, shape.upper, sizeof(drawing->upper));
 }
 
-/* A text in the core's encoding; NULL if it is not given. */
+/* A text in the core's encoding; NULL if not given. */
 static const char *
 caption(FunctionCallInfo fcinfo, int argument)
 {
@@ -134,14 +134,17 @@ light(FunctionCallInfo fcinfo, int argument, abacus_drawing *drawing)
 		ereport(NOTICE, (errmsg("light has no effect without exaggeration")));
 }
 
-/* Opens a mesh or an octree to be drawn. */
+/* Opens a mesh or an octree for drawing. */
 static Reader *
 open_drawn(Oid drawn)
 {
 	return reader_open_of(drawn, ANY_TYPE, CurrentMemoryContext);
 }
 
-/* The number of an attribute, or, behind these, of a label, by its name; -1 if it is not given. */
+/*
+ * The number of an attribute by its name, or, counted after the attributes, of a label; -1 if not
+ * given.
+ */
 static int
 attribute_or_label(FunctionCallInfo fcinfo, int argument, abacus_names names)
 {
@@ -161,8 +164,8 @@ attribute_or_label(FunctionCallInfo fcinfo, int argument, abacus_names names)
 }
 
 /*
- * Contours are lines through values that change; in a leaf of an octree there is but one, and a
- * simplex has one label of a name.
+ * Contours are lines through changing values. A leaf of an octree has only one value, and a simplex
+ * has one value for each label.
  */
 static void
 leave_contours_out(const abacus_facts *facts, abacus_drawing *drawing)
@@ -176,7 +179,7 @@ leave_contours_out(const abacus_facts *facts, abacus_drawing *drawing)
 	ereport(NOTICE, (errmsg("contours has no effect on %s", is_octree ? "an octree" : "a label")));
 }
 
-/* Tells why a picture shows nothing; `place` is where nothing is. */
+/* Reports why a picture shows nothing; `place` is where nothing is. */
 static void
 tell_blank(const Reader *reader, const abacus_drawing *drawing, const char *cells,
 		   const char *place)
@@ -305,10 +308,10 @@ enum
 	VOLUME_TRANSPARENT
 };
 
-/* By the numbers of the core */
+/* In the order of the core's numbers */
 static const char *const ray_modes[] = {"mean", "max", "min", "sum", NULL};
 
-/* A point or direction of the camera; false if it is not given. */
+/* A point or direction of the camera; false if not given. */
 static bool
 camera_vector(FunctionCallInfo fcinfo, int argument, const abacus_form *form, const char *name,
 			  double *vector)

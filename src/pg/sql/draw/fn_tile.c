@@ -1,6 +1,6 @@
 /*
- * fn_tile.c: abacus_tile_picture, abacus_tile_vector and abacus_tile_terrain, a
- * tile of a web map, and abacus_tile_etag, what tells whether it may have changed.
+ * fn_tile.c: abacus_tile_picture, abacus_tile_vector and abacus_tile_terrain, a tile of a web map,
+ * and abacus_tile_etag, which shows whether it may have changed.
  */
 #include "postgres.h"
 
@@ -63,13 +63,13 @@ enum
 	TERRAIN_FILL
 };
 
-/* More pixels are no tile. */
+/* More pixels do not make a tile. */
 #define MAX_TILE_SIZE 1024
 
 /* Half of the side of the map of Web Mercator, in metres */
 #define HALF_WORLD 20037508.342789244
 
-/* A map of its own: a square in the mesh's coordinates. */
+/* A map with its own world: a square in the mesh's coordinates. */
 static void
 own_world(ArrayType *array, abacus_tile *tile)
 {
@@ -90,7 +90,7 @@ own_world(ArrayType *array, abacus_tile *tile)
 				 errmsg("the side of world must be above 0")));
 }
 
-/* What the coordinates of the mesh are: as its header says, unless it is silent. */
+/* The SRID of the mesh: from its header or, if it has none there, from the argument. */
 static int32
 tile_srid(FunctionCallInfo fcinfo, const abacus_form *form)
 {
@@ -115,7 +115,7 @@ tile_srid(FunctionCallInfo fcinfo, const abacus_form *form)
 	return srid;
 }
 
-/* The map that tiles are of: Web Mercator, or one of its own. */
+/* The map of the tiles: Web Mercator, or one of its own. */
 static void
 tile_world(FunctionCallInfo fcinfo, const abacus_form *form, abacus_tile *tile)
 {
@@ -162,7 +162,7 @@ tile_size(FunctionCallInfo fcinfo, int argument)
 	return size;
 }
 
-/* An attribute by its name, or the only one; -1 if the mesh has none. */
+/* An attribute by its name; if not given, the only one, or -1 if the mesh has none. */
 static int
 tile_attribute(FunctionCallInfo fcinfo, int argument, abacus_names names)
 {

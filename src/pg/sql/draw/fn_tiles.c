@@ -1,11 +1,10 @@
 /*
- * fn_tiles.c: abacus_tiles, functions of a mesh for tile servers.
+ * fn_tiles.c: abacus_tiles, which makes functions of a mesh for tile servers.
  *
- * Martin calls f(z, x, y, query_params json), which returns a tile and what tells
- * whether it has changed; a comment says what kind of bytes it has. pg_tileserv
- * calls f(z, x, y, named arguments...) for a vector tile. So four functions are made. Their
- * bodies are parsed when they are made. So they follow the mesh when it is renamed,
- * and depend on it.
+ * Martin calls f(z, x, y, query_params json), which returns a tile and an etag; a comment says what
+ * kind of bytes it is. pg_tileserv calls f(z, x, y, named arguments...) for a vector tile. So four
+ * functions are made. Their bodies are parsed when they are made. So they follow the mesh when it
+ * is renamed, and depend on it.
  */
 #include "postgres.h"
 
@@ -40,7 +39,7 @@ enum
 	TILES_SIZE
 };
 
-/* What the functions are made of, as SQL; what is not given is NULL. */
+/* The parts of the functions as SQL; what is not given is NULL. */
 typedef struct Tiles
 {
 	ReturnSetInfo *set;
@@ -57,7 +56,7 @@ typedef struct Tiles
 	const char *edges;
 	const char *max_edge;
 	const char *srid;
-	const char *fill;			/* the height where there is none */
+	const char *fill;			/* the height outside the mesh */
 	int32		size;
 } Tiles;
 
@@ -69,7 +68,7 @@ text_literal(FunctionCallInfo fcinfo, int argument)
 	return quote_literal_cstr(text_to_cstring(PG_GETARG_TEXT_PP(argument)));
 }
 
-/* A number that reads back as the same. */
+/* A number as text that reads back as the same number. */
 static const char *
 number_literal(double value)
 {
@@ -113,7 +112,7 @@ find_range(const Tiles *tiles, double *range)
 		range[1] = range[0] + 1;
 }
 
-/* Of the attribute: what is least is also where terrain ends. */
+/* The range of the attribute; its lower end is also the height where terrain ends. */
 static void
 set_range(FunctionCallInfo fcinfo, Tiles *tiles)
 {
@@ -144,7 +143,7 @@ world_literal(FunctionCallInfo fcinfo)
 	return world.data;
 }
 
-/* Makes a function with this end of its name, and adds it to the result. */
+/* Makes a function whose name ends like this, and adds it to the result. */
 static void
 make(const Tiles *tiles, const char *suffix, const char *type, const char *argument,
 	 const char *returns, const char *body, const char *comment)
@@ -171,8 +170,8 @@ make(const Tiles *tiles, const char *suffix, const char *type, const char *argum
 }
 
 /*
- * A function for Martin. What tells whether a tile has changed is the mesh's stamp, and what the
- * function does.
+ * A function for Martin. The etag, which shows whether a tile has changed, consists of the mesh's
+ * stamp and a hash of the function's body.
  */
 static void
 make_with_etag(const Tiles *tiles, const char *suffix, const char *body, const char *comment)
@@ -222,7 +221,7 @@ make_all(const Tiles *tiles, bool has_attribute)
 					   "{\"content_type\": \"image/png\", \"encoding\": \"terrarium\", \"description\": \"A mesh as heights\"}");
 }
 
-/* Draws a tile once, so that arguments are found wrong now. */
+/* Draws a tile once, so that wrong arguments are reported now. */
 static void
 try_arguments(const Tiles *tiles)
 {

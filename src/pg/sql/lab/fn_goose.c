@@ -1,6 +1,6 @@
 /*
- * fn_goose.c: abacus_goose, the dissertation's chapter 2: a triangulation as a
- * table of rows, grown by searches of an R-tree, and what that cost.
+ * fn_goose.c: abacus_goose, the dissertation's chapter 2: a triangulation as a table of rows, grown
+ * by searches of an R-tree, and its cost.
  */
 #include "postgres.h"
 
@@ -23,7 +23,7 @@ share(uint64 part, uint64 whole)
 	return whole == 0 ? 0 : (double) part / (double) whole;
 }
 
-/* Counts of the mesh, and of what was made for it. */
+/* Counts of the mesh, and of the work for it. */
 static void
 put_counts(const Figures *figures, const abacus_goose_figures *goose)
 {
@@ -39,7 +39,7 @@ put_counts(const Figures *figures, const abacus_goose_figures *goose)
 			   "share of the rows that were deleted again");
 }
 
-/* Section 2.3.2: how many boxes a search looks at for what it finds. */
+/* Section 2.3.2: how many boxes a search compares for each result. */
 static void
 put_searches(const Figures *figures, const abacus_goose_figures *goose)
 {

@@ -1,9 +1,9 @@
 /*
  * fn_quake.c: abacus_quake, the points of the earthquake data sets.
  *
- * Each call returns one point, so in a select list the points stream. In a FROM clause
- * the executor first collects a function's rows in a temporary file. Between calls only
- * the core's place in the octree is kept.
+ * Each call returns one point, so in a select list the points stream. In a FROM clause the executor
+ * first collects a function's rows in a temporary file. Between calls, only the core's place in the
+ * octree is kept.
  */
 #include "postgres.h"
 

@@ -2,8 +2,7 @@
  * fn_contours.c: abacus_contours, lines of equal value of an attribute, and the
  * bands between them.
  *
- * All pages are read before the first line is known to be whole; so the rows go
- * into a tuplestore.
+ * A line is complete only after all pages have been read, so the rows go into a tuplestore.
  */
 #include "postgres.h"
 
@@ -51,10 +50,10 @@ enum
 	CONTOUR_COLUMNS
 };
 
-/* An array of so many points is as large as a value may be. */
+/* An array with this many points is as large as a value may be. */
 #define MOST_POINTS ((MaxAllocSize - ARR_OVERHEAD_NONULLS(1) - 1024) / (2 * sizeof(float8)))
 
-/* Points as a float8[], which is made in one piece: it may be large. */
+/* Points as a float8[]; it may be large, so it is made in one piece. */
 static ArrayType *
 path_array(const double *path, size_t points)
 {
@@ -130,7 +129,7 @@ fixed_levels(ArrayType *array, abacus_contouring *how)
 	how->fixed_count = kept;
 }
 
-/* The levels; NULL is as good as an argument left out. */
+/* The levels; NULL means the same as omitting an argument. */
 static void
 level_arguments(FunctionCallInfo fcinfo, abacus_contouring *how)
 {

@@ -1,10 +1,10 @@
 /*
- * fn_surface.c: surfaces through a mesh in space: abacus_isosurface, where an
- * attribute has a value, and abacus_section, where a plane cuts it.
+ * fn_surface.c: surfaces through a mesh in space: abacus_isosurface, where an attribute has a given
+ * value, and abacus_section, where a plane cuts the mesh.
  *
- * The corners of an isosurface have numbers, which are known when all of it
- * has been found; so its rows go into a tuplestore, as those of a function in
- * FROM do anyway. A section is handed out polygon by polygon.
+ * The corners of an isosurface have numbers, which are known only when the whole surface has been
+ * found. So its rows go into a tuplestore, as those of a function in FROM do anyway. A section is
+ * returned polygon by polygon.
  */
 #include "postgres.h"
 

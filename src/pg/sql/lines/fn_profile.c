@@ -44,7 +44,7 @@ put_place(void *context, double distance, const double *place, double value)
 	return answers_put(answers, values, isnull);
 }
 
-/* The places of a path, x and y and, in space, z of each. */
+/* The places of a path: x, y and, in space, z of each. */
 static double *
 path_argument(FunctionCallInfo fcinfo, int argument, uint32 dimension, size_t *corners)
 {

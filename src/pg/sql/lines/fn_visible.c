@@ -1,6 +1,5 @@
 /*
- * fn_visible.c: abacus_visible, whether one place is seen from another over a
- * terrain.
+ * fn_visible.c: abacus_visible, whether one place is visible from another over a terrain.
  */
 #include "postgres.h"
 
@@ -38,7 +37,7 @@ enum
 	SIGHT_COLUMNS = SIGHT_X + 3
 };
 
-/* One end: [x, y], which stands on the ground, or above it, or [x, y, z]. */
+/* One end: [x, y] stands on the ground, or above it by a height; [x, y, z] does not. */
 static void
 end_argument(FunctionCallInfo fcinfo, int argument, int height_argument, const char *name,
 			 abacus_sight_end *end)

@@ -1,8 +1,8 @@
 /*
  * fn_label.c: abacus_label, abacus_inherit_labels and abacus_labels, labels of simplices of a mesh.
  *
- * Nothing is triangulated, and no simplex page is read for writing. So meshes that are not Delaunay
- * can have labels, too.
+ * Nothing is triangulated, and no simplex page is written. So meshes that are not Delaunay can have
+ * labels, too.
  */
 #include "postgres.h"
 
@@ -24,14 +24,14 @@ SQL_FUNCTION(abacus_sql_labels);
 SQL_FUNCTION(abacus_sql_labels_of);
 
 /*
- * Columns behind those of a simplex are labels by name; the mesh gets those that it does not have.
- * Their numbers go to `labels`, which has room for all; the shape is that of the rows.
+ * Columns after those of a simplex are labels by name; the mesh gets new ones. Their numbers go to
+ * `labels`, which has room for all; returns the shape of the rows.
  */
 static abacus_header *
 shape_of_rows(const Source *source, abacus_header *header, uint32 *labels)
 {
 	abacus_header *shape = palloc(sizeof(abacus_header));
-	int			first = 2 + (int) header->facts.form.dimension;	/* behind code and vertices */
+	int			first = 2 + (int) header->facts.form.dimension;	/* after code and vertices */
 	int			columns = source_columns(source);
 
 	abacus_header_copy(shape, header);

@@ -1,10 +1,10 @@
 /*
- * fn_load.c: abacus_load, a triangulation made elsewhere into a new mesh.
+ * fn_load.c: abacus_load, which makes a mesh from a triangulation made elsewhere.
  *
- * The vertices are read first, then the simplices. The core sorts and checks both
- * within maintenance_work_mem, beyond that in temporary files, and writes the pages. If
- * the caller wants that, it triangulates the vertices instead where the simplices are
- * not Abacus' own Delaunay triangulation.
+ * The vertices are read first, then the simplices. The core sorts and checks both within
+ * maintenance_work_mem, beyond that in temporary files, and writes the pages. If the simplices are
+ * not Abacus' own Delaunay triangulation, it triangulates the vertices instead if the caller
+ * wishes.
  */
 #include "postgres.h"
 
@@ -19,14 +19,14 @@
 
 SQL_FUNCTION(abacus_sql_load);
 
-/* Whether a column has a name of its own: PostgreSQL calls others column5 or ?column?. */
+/* Whether a column has a name of its own: PostgreSQL names others column5 or ?column?. */
 static bool
 is_named(const char *name)
 {
 	return strncmp(name, "column", strlen("column")) != 0 && name[0] != '?';
 }
 
-/* A simplex has as many vertices as its mesh has dimensions, and one more; then come labels. */
+/* A simplex has one vertex more than its mesh has dimensions; labels follow. */
 static int
 dimension_of(const Source *simplices, int labels)
 {
@@ -51,8 +51,8 @@ dimension_of(const Source *simplices, int labels)
 }
 
 /*
- * Four columns may also be a triangle and its label. They are taken for a tetrahedron, and the height of
- * its vertices for z.
+ * Four columns may also be a triangle and its label. They are read as a tetrahedron, and the height
+ * of its vertices as z.
  */
 static void
 tell_dimension(const abacus_form *form, const Source *vertices, const Source *simplices)
@@ -72,8 +72,7 @@ tell_dimension(const abacus_form *form, const Source *vertices, const Source *si
 }
 
 /*
- * Checks what has been read. The detail of an error may have many lines, and all of
- * them are reported.
+ * Checks the input. The detail of an error may have many lines, all of which are reported.
  */
 static abacus_delaunay
 check(Host *host, abacus_load *load)
@@ -98,8 +97,8 @@ check(Host *host, abacus_load *load)
 }
 
 /*
- * Gives the rows of two prepared queries to the core, and of one for facets unless that is NULL. The
- * core checks them.
+ * Passes the rows of two prepared queries to the core, and those of a third for facets unless it is
+ * NULL. The core checks them.
  */
 static abacus_delaunay
 read_triangulation(Change *change, Source *vertices, Source *simplices, Source *facets,
@@ -131,7 +130,7 @@ read_triangulation(Change *change, Source *vertices, Source *simplices, Source *
 	return check(host, change->load);
 }
 
-/* Says of a triangulation that is not Abacus' own what it is. */
+/* Reports the kind of a triangulation that is not Abacus' own. */
 static void
 tell(abacus_delaunay delaunay, bool retriangulated, bool labelled, bool marked)
 {
@@ -151,14 +150,14 @@ tell(abacus_delaunay delaunay, bool retriangulated, bool labelled, bool marked)
 						 "which can be changed.")));
 }
 
-/* Triangulates the vertices that were loaded. */
+/* Triangulates the loaded vertices. */
 static void
 triangulate_vertices(Change *change)
 {
 	Host	   *host = change->writer.host;
 	abacus_header *header = change->writer.header;
 
-	/* vertices at one place are repeated points now, as anywhere */
+	/* vertices at one place are now repeated points, as in any mesh */
 	header->facts.columns.apart = abacus_are_apart(header->facts.form.dimension,
 												   header->facts.columns.attributes);
 	change_open_stage(change, &header->facts);
@@ -227,7 +226,7 @@ abacus_sql_load(PG_FUNCTION_ARGS)
 					"abacus_load()");
 	change = change_begin(mesh, "abacus_load()");
 	host = change->writer.host;
-	/* attributes that are apart are found by place alone */
+	/* attributes that are apart are found by their places only */
 	if (split_nodes)
 		change->writer.header->facts.columns.apart = 0;
 	delaunay = read_triangulation(change, &vertices, &simplices, has_facets ? &facets : NULL,

@@ -1,8 +1,8 @@
 /*
- * fn_octree.c: octrees that are made and changed.
+ * fn_octree.c: makes and changes octrees.
  *
- * Each change happens inside one call, with the header locked, as those of a mesh do. Growth says
- * which octants are to be split, and rewrites the pages where any is; what it sorts takes
+ * Each change happens inside one call, with the header locked, like a change of a mesh. Growth
+ * finds the octants to split, and rewrites the pages if there are any; its sorts take
  * maintenance_work_mem, beyond that temporary files.
  */
 #include "postgres.h"
@@ -31,7 +31,7 @@ SQL_FUNCTION(abacus_sql_octree_balance);
 
 /* ---- Creating ------------------------------------------------------------ */
 
-/* The finest level that leaves may have. */
+/* The finest level allowed for leaves. */
 static void
 set_levels(abacus_form *form, int32 levels)
 {
@@ -44,7 +44,7 @@ set_levels(abacus_form *form, int32 levels)
 	form->levels = (uint32) levels;
 }
 
-/* A span that no double can hold is no domain. */
+/* A span that a double cannot hold is not a valid domain. */
 static void
 check_span(const abacus_form *form)
 {
@@ -102,7 +102,7 @@ begin(OctreeChange *change, FunctionCallInfo fcinfo, const char *command)
 }
 
 /*
- * Hands the rows of the query to the core's handle. An octree without SRID takes that of
+ * Passes the rows of the query to the core's handle. An octree without SRID takes that of
  * geometries.
  */
 static void
@@ -137,7 +137,7 @@ end(OctreeChange *change)
 	return leaves;
 }
 
-/* Opens the growth of an octree as its host's handle. */
+/* Opens the growth of an octree as the handle of its host. */
 void
 octree_growth_open(Writer *writer)
 {
@@ -278,7 +278,7 @@ abacus_sql_octree_from_rows(PG_FUNCTION_ARGS)
 
 /* ---- Balance ----------------------------------------------------------------- */
 
-/* Across what leaves are to be balanced, as an argument says. */
+/* Whether to balance leaves across faces, edges or corners, from an argument. */
 static int32
 across_what(text *given, uint32 dimension)
 {

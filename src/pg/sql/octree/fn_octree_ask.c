@@ -2,7 +2,7 @@
  * fn_octree_ask.c: leaves and values at places of an octree: abacus_octree_neighbours,
  * abacus_octree_nearest, abacus_octree_interpolate, and abacus_octree_locate of many places.
  *
- * One place is looked for in the session's cache; many are sorted along the curve first.
+ * One place is answered from the session's cache; many are sorted along the curve first.
  */
 #include "postgres.h"
 
@@ -28,7 +28,7 @@ SQL_FUNCTION(abacus_sql_octree_locate_places);
 SQL_FUNCTION(abacus_sql_octree_interpolate);
 SQL_FUNCTION(abacus_sql_octree_interpolate_places);
 
-/* Rows have boxes and attributes of leaves. */
+/* Prepares for rows with boxes and attributes of leaves. */
 static void
 answers_begin(Answers *answers, Host *host, const abacus_facts *facts)
 {
@@ -37,7 +37,7 @@ answers_begin(Answers *answers, Host *host, const abacus_facts *facts)
 	answers_have_arrays(answers, facts->columns.attributes);
 }
 
-/* The columns of a leaf, good for one row. */
+/* The columns of a leaf; valid for one row. */
 static void
 octant_of_row(const Answers *answers, const abacus_octant *octant, Datum *values)
 {
@@ -87,7 +87,7 @@ abacus_sql_octree_neighbours(PG_FUNCTION_ARGS)
 
 /* ---- Nearest leaves --------------------------------------------------------- */
 
-/* Adds a leaf near the one place; called by the core. */
+/* Adds a leaf near one given place; called by the core. */
 static abacus_host_status
 put_near(void *context, int64_t place, uint64_t rank, const abacus_octant *octant, double distance)
 {
@@ -228,7 +228,7 @@ abacus_sql_octree_interpolate(PG_FUNCTION_ARGS)
 	cached = mesh_cache_get_octree(PG_GETARG_OID(0));
 	interpolation_attribute(fcinfo, 1 + given, abacus_names_of(&cached->header), &how);
 	if (!place_arguments(fcinfo, given, &cached->header.facts.form, place))
-		PG_RETURN_NULL();		/* outside of any domain */
+		PG_RETURN_NULL();		/* outside every domain */
 	status = host_run(cached->host, abacus_octree_interpolate, cached->octree, how.attribute,
 					  how.attributes, place, &value);
 	host_release(cached->host);

@@ -1,6 +1,6 @@
 /*
  * fn_octree_nodes.c: abacus_octree_nodes, abacus_octree_elements and abacus_octree_tetrahedra, an
- * octree as a solver takes it.
+ * octree as input of a solver.
  */
 #include "postgres.h"
 

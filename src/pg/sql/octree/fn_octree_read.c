@@ -1,5 +1,5 @@
 /*
- * fn_octree_read.c: leaves of octrees: at a place, of a window.
+ * fn_octree_read.c: reads leaves of octrees: at a place, or in a window.
  */
 #include "postgres.h"
 
@@ -18,7 +18,7 @@ SQL_FUNCTION(abacus_sql_octree_locate);
 SQL_FUNCTION(abacus_sql_octants);
 SQL_FUNCTION(abacus_sql_octants_in_ball);
 
-/* The row type of a function that is called for many rows, looked up once. */
+/* The row type of a function that is called for many rows; looked up once. */
 static TupleDesc
 kept_row_type(FunctionCallInfo fcinfo)
 {
@@ -45,7 +45,7 @@ abacus_sql_octree_locate(PG_FUNCTION_ARGS)
 	abacus_status status;
 
 	if (!place_arguments(fcinfo, PG_NARGS() - 1, &cached->header.facts.form, place))
-		PG_RETURN_NULL();		/* outside of any domain */
+		PG_RETURN_NULL();		/* outside every domain */
 	status = host_run(host, abacus_octree_locate, cached->octree, place, &octant);
 	host_release(host);
 	if (status == ABACUS_END)
@@ -67,7 +67,7 @@ begin_octants(FunctionCallInfo fcinfo, FuncCallContext *set, WindowForm form)
 	host_own(host, scan, (void (*) (void *)) abacus_octree_scan_close);
 }
 
-/* Leaves one by one. */
+/* Returns leaves one by one. */
 static Datum
 octants(FunctionCallInfo fcinfo, WindowForm form)
 {

@@ -1,7 +1,7 @@
 /*
- * fn_octree_size.c: abacus_octree_from_size, an octree that is as fine as a query tells.
+ * fn_octree_size.c: abacus_octree_from_size, an octree as fine as a query says.
  *
- * The query is asked for many octants at once: it gets their centers as arrays, and answers with an
+ * The query is called for many octants at once: it gets their centers as arrays, and returns an
  * array of sizes. It runs under the change's snapshot, read-only, with the caller's rights.
  */
 #include "postgres.h"
@@ -70,7 +70,7 @@ run(SizeQuery *query, size_t count, const double *const *centers, double *sizes)
 		arguments[i] = attribute_array(centers[i], (int) count);
 	if (SPI_execute_plan(query->plan, arguments, NULL, true, 2) != SPI_OK_SELECT)
 		refuse_answer("It is not a SELECT.");
-	MemoryContextSwitchTo(query->scratch);	/* SPI has gone to its own */
+	MemoryContextSwitchTo(query->scratch);	/* SPI has switched to its own */
 	if (SPI_processed != 1 || SPI_tuptable->tupdesc->natts != 1)
 		refuse_answer("It did not return exactly one row with one column.");
 	if (SPI_gettypeid(SPI_tuptable->tupdesc, 1) != FLOAT8ARRAYOID)
@@ -83,7 +83,7 @@ run(SizeQuery *query, size_t count, const double *const *centers, double *sizes)
 	SPI_freetuptable(SPI_tuptable);
 }
 
-/* Tells the sizes of octants; called by the core. */
+/* Returns the sizes of octants; called by the core. */
 static abacus_host_status
 sizes_of(void *context, size_t count, const double *const *centers, const double *edges,
 		 double *sizes)

@@ -1,5 +1,5 @@
 /*
- * octree_growth.h: leaves of an octree that are split.
+ * octree_growth.h: splitting leaves of an octree.
  */
 #ifndef ABACUS_OCTREE_GROWTH_H
 #define ABACUS_OCTREE_GROWTH_H

@@ -1,14 +1,14 @@
 /*
- * fn_drape.c: abacus_drape of the extension abacus_postgis, lines and polygons laid over a
- * terrain; and parts of a triangle of abacus_clip, laid over this one.
+ * fn_drape.c: abacus_drape of the extension abacus_postgis, which lays lines and polygons over a
+ * terrain; and the parts of a triangle for abacus_clip, laid over this triangle.
  *
- * The bytes of a geometry are read and written again, with a z behind the coordinates of each place:
- * the attribute, linear in each triangle. Between two places of a line the surface bends where the
- * line crosses an edge, so with `densify` there is a place at each: those of a profile. Where there
- * is no value z is NaN, which is how PostGIS keeps a z that is not known.
+ * The bytes of a geometry are read and written again, with a z after the coordinates of each place:
+ * the attribute, which is linear in each triangle. Between two places of a line the surface bends
+ * where the line crosses an edge, so with `densify` there is a place at each crossing, as in a
+ * profile. If there is no value, z is NaN, which is how PostGIS stores an unknown z.
  *
- * Where a triangle is cut PostGIS rounds, so a place of a part may lie beside the triangle, even beside
- * the mesh. Its z is that of the triangle's plane, and within the values of the corners.
+ * Where PostGIS cuts a triangle, it rounds, so a place of a part may lie beside the triangle, even
+ * beside the mesh. Its z is that of the triangle's plane, and within the values of the corners.
  */
 #include "postgres.h"
 
@@ -49,18 +49,18 @@ typedef struct Place
 
 typedef struct Drape
 {
-	CachedMesh *mesh;			/* the surface: either this, or, if it is NULL, one triangle */
+	CachedMesh *mesh;			/* the surface; if it is NULL, the triangle below is */
 	const double *corners;
 	double		values[3];
 	abacus_interpolation how;
 	bool		densifies;
 	GeometryBytes in;
 	StringInfoData out;
-	bool		has_m;			/* of the geometry that is being read */
-	size_t		places;			/* written of a line so far */
-	Place		from;			/* the ends of a piece of it */
+	bool		has_m;			/* of the geometry being read */
+	size_t		places;			/* written so far, of one line */
+	Place		from;			/* the ends of a piece of the line */
 	Place		to;
-	bool		has_last;		/* a place between them has come, and waits */
+	bool		has_last;		/* a place between them waits to be written */
 	Place		last;
 } Drape;
 
@@ -74,7 +74,7 @@ read_place(Drape *drape, const GeometryHead *head)
 	return place;
 }
 
-/* Over a mesh. */
+/* Sets z over a mesh. */
 static void
 lift_over_mesh(const Drape *drape, Place *place)
 {
@@ -91,7 +91,7 @@ lift_over_mesh(const Drape *drape, Place *place)
 	place->at[2] = value;
 }
 
-/* Over a triangle. */
+/* Sets z over a triangle. */
 static void
 lift_over_triangle(const Drape *drape, Place *place)
 {
@@ -113,7 +113,7 @@ lift_over_triangle(const Drape *drape, Place *place)
 		}
 	value = values[0] + (p[0] * c[1] - c[0] * p[1]) / area * (values[1] - values[0]) +
 		(b[0] * p[1] - p[0] * b[1]) / area * (values[2] - values[0]);
-	place->at[2] = fmin(fmax(value, least), greatest);	/* a number, however flat the triangle is */
+	place->at[2] = fmin(fmax(value, least), greatest);	/* never NaN, however flat the triangle is */
 }
 
 /* Sets z. */
@@ -148,7 +148,7 @@ put_last(Drape *drape)
 	drape->has_last = false;
 }
 
-/* Which part of the way from one end of the piece to the other a distance is. */
+/* A distance as a share of the way from one end of the piece to the other. */
 static double
 share_of(const Drape *drape, double distance)
 {
@@ -158,8 +158,8 @@ share_of(const Drape *drape, double distance)
 }
 
 /*
- * A place where a piece of a line crosses an edge; called by the core. Where the line leaves the
- * mesh or comes back there are two, one of them without a value.
+ * Adds a place where a piece of a line crosses an edge; called by the core. If the line leaves the
+ * mesh or comes back, there are two, one of them without a value.
  */
 static abacus_host_status
 cross(void *context, double distance, const double *at, double value)
@@ -185,7 +185,7 @@ cross(void *context, double distance, const double *at, double value)
 	return ABACUS_HOST_OK;
 }
 
-/* The places between two ends. */
+/* Adds the places between the two ends. */
 static void
 put_crossings(Drape *drape)
 {
@@ -201,7 +201,7 @@ put_crossings(Drape *drape)
 	put_last(drape);
 }
 
-/* A line, or a ring: the number of places, and these. */
+/* A line or a ring: the number of its places, and the places. */
 static void
 drape_line(Drape *drape, const GeometryHead *head)
 {
@@ -234,7 +234,7 @@ drape_point(Drape *drape, const GeometryHead *head)
 	put_place(drape, &place);
 }
 
-/* A geometry and what is in it. */
+/* A geometry with everything inside it. */
 static void
 drape_geometry(Drape *drape, bool inside)
 {

@@ -1,10 +1,9 @@
 /*
- * fn_geometry.c: what the functions of the extension abacus_postgis need from C: coordinates that
- * functions of the extension abacus return become geometries, and geometries become arguments
- * of these.
+ * fn_geometry.c: the C part of the functions of the extension abacus_postgis: converts coordinates
+ * that functions of the extension abacus return to geometries, and geometries to arguments of these
+ * functions.
  *
- * The functions themselves are SQL (sql/install_postgis), which the planner puts in place of their
- * calls.
+ * The functions themselves are SQL (sql/install_postgis), which the planner inlines.
  */
 #include "postgres.h"
 
@@ -63,9 +62,9 @@ abacus_sql_geometry_facts(PG_FUNCTION_ARGS)
 /*
  * _abacus_corner(mesh regclass, srid int, corner float8[]) -> float8[]
  *
- * A corner {x, y, z} of the box around a geometry as an argument of functions that take a window. An
- * infinite z stands for that of a geometry without one. No window is asked for an empty geometry,
- * whose box is NULLs.
+ * A corner {x, y, z} of the box around a geometry, as an argument of functions that take a window.
+ * For a geometry without z, z is infinite. There is no window for an empty geometry, whose box is
+ * NULL.
  */
 Datum
 abacus_sql_geometry_corner(PG_FUNCTION_ARGS)
@@ -83,7 +82,10 @@ abacus_sql_geometry_corner(PG_FUNCTION_ARGS)
 	PG_RETURN_DATUM(attribute_array(corner, (int) facts->form.dimension));
 }
 
-/* _abacus_area(mesh regclass, area geometry) -> geometry: the same, which must be polygons of the mesh's system */
+/*
+ * _abacus_area(mesh regclass, area geometry) -> geometry: the same; an error unless it is polygons
+ * in the mesh's system
+ */
 Datum
 abacus_sql_geometry_area(PG_FUNCTION_ARGS)
 {
@@ -145,7 +147,7 @@ abacus_sql_geometry_path(PG_FUNCTION_ARGS)
 
 /* ---- Results --------------------------------------------------------------- */
 
-/* Triangle of the corners of a cell, with the attribute as z if its number is not NULL. */
+/* The triangle of a cell's corners, with the attribute as z if its number is not NULL. */
 static bool
 put_triangle_of_cell(FunctionCallInfo fcinfo, StringInfo bytes, const double *corners)
 {
@@ -171,7 +173,7 @@ put_triangle_of_cell(FunctionCallInfo fcinfo, StringInfo bytes, const double *co
 /*
  * _abacus_cell(corners float8[], values float8[], attribute int, srid int) -> geometry
  *
- * NULL where the attribute is missing at a corner.
+ * NULL if the attribute is missing at a corner.
  */
 Datum
 abacus_sql_cell_geometry(PG_FUNCTION_ARGS)
@@ -212,7 +214,7 @@ abacus_sql_point_geometry(PG_FUNCTION_ARGS)
 	PG_RETURN_DATUM(geometry_made(geometry_argument_type(fcinfo, -1), &bytes));
 }
 
-/* Places, one after the other, as a line, or as a polygon of one ring. */
+/* A list of places as a line, or as a polygon with one ring. */
 static Datum
 of_places(FunctionCallInfo fcinfo, uint32 kind, bool closes)
 {

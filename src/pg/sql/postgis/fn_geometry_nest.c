@@ -1,15 +1,16 @@
 /*
- * fn_geometry_nest.c: polygons of rings, for outlines and bands of the extension abacus_postgis.
+ * fn_geometry_nest.c: makes polygons from rings, for outlines and bands of the extension
+ * abacus_postgis.
  *
- * The rings are closed lines that do not cross, though they may touch in vertices: counterclockwise
- * around what is inside, clockwise around holes. Which hole is in which outline a sweep tells, in the
- * lexicographic order of all vertices. It keeps the edges that the sweep line meets, from bottom to
- * top, and compares them by exact predicates. The region beside a hole's least vertex, below the lower
- * one of its two edges there, is inside the outline that is looked for. So the next edge below is one
- * of that outline, or of another hole of it, whose least vertex came before.
+ * The rings are closed lines that do not cross, though they may touch in vertices. They run
+ * counterclockwise around the inside, clockwise around holes. A sweep in the lexicographic order of
+ * all vertices finds the outline of each hole. It keeps the edges that the sweep line meets, from
+ * bottom to top, and compares them by exact predicates. The region beside a hole's least vertex,
+ * below the lower one of its two edges there, is inside the hole's outline. So the next edge below
+ * belongs to that outline, or to another hole in it whose least vertex came before.
  *
- * The edges are an array. That an edge comes or goes moves those above it, and a line meets few of
- * all edges. A vertical edge is one that goes right, from its lower end: so the order has it.
+ * The edges are an array. Adding or removing an edge moves those above it, and a line meets few of
+ * all edges. A vertical edge counts as going right, from its lower end, in line with the order.
  */
 #include "postgres.h"
 
@@ -23,7 +24,7 @@
 
 SQL_FUNCTION(abacus_sql_geometry_nest);
 
-/* An edge, with the lesser one of its ends first. */
+/* An edge; the lesser end comes first. */
 typedef struct Edge
 {
 	const double *from;
@@ -34,7 +35,7 @@ typedef struct Edge
 typedef struct Nesting
 {
 	Rings		rings;
-	Edge	   *edges;			/* those that the sweep line meets, from bottom to top */
+	Edge	   *edges;			/* the edges that the sweep line meets, from bottom to top */
 	size_t		met;
 	size_t		room;
 } Nesting;
@@ -60,7 +61,7 @@ compare_edges(const Edge *a, const Edge *b)
 	return sign != 0 ? sign : (a->ring > b->ring) - (a->ring < b->ring);
 }
 
-/* How many edges are below this one. */
+/* Returns how many edges are below this one. */
 static size_t
 edges_below(const Nesting *nesting, const Edge *edge)
 {
@@ -105,7 +106,7 @@ remove_edge(Nesting *nesting, const Edge *edge)
 {
 	size_t		at = edges_below(nesting, edge);
 
-	/* where rounded lines cross after all, it is not where it should be */
+	/* if rounded lines cross after all, the edge may be elsewhere */
 	if (!is_edge(nesting, at, edge))
 		for (at = 0; at < nesting->met && !is_edge(nesting, at, edge); at++)
 			;
@@ -115,7 +116,7 @@ remove_edge(Nesting *nesting, const Edge *edge)
 	memmove(nesting->edges + at, nesting->edges + at + 1, (nesting->met - at) * sizeof(Edge));
 }
 
-/* The edge from a vertex to the next one of its ring, or that to it. */
+/* The edge from a vertex to the next one of its ring, or the one to the vertex. */
 static Edge
 edge_at(const Nesting *nesting, size_t vertex, bool outgoing)
 {
@@ -144,7 +145,7 @@ pass_vertex(Nesting *nesting, size_t vertex, bool begins)
 	}
 }
 
-/* What is below a hole, at its least vertex, whose edges have been added. */
+/* Finds the ring below a hole, at its least vertex, whose edges have been added. */
 static void
 look_below(Nesting *nesting, size_t vertex)
 {
@@ -156,7 +157,7 @@ look_below(Nesting *nesting, size_t vertex)
 	ring->below = at == 0 ? NO_RING : nesting->edges[at - 1].ring;
 }
 
-/* Finds what is below each hole. */
+/* Finds the ring below each hole. */
 static void
 sweep(Nesting *nesting)
 {
@@ -184,7 +185,7 @@ sweep(Nesting *nesting)
 	}
 }
 
-/* Reads the rings, the last place of each left out. */
+/* Reads the rings, without the repeated last place of each. */
 static void
 read_rings(Rings *rings, GeometryBytes *bytes)
 {
@@ -214,7 +215,7 @@ read_rings(Rings *rings, GeometryBytes *bytes)
 	}
 }
 
-/* The outline that a hole is in. */
+/* The outline that surrounds a hole. */
 static size_t
 outline_of(const Nesting *nesting, size_t hole)
 {
@@ -232,7 +233,7 @@ outline_of(const Nesting *nesting, size_t hole)
 	return ring;
 }
 
-/* Gives each hole to its outline, the last one first; returns how many outlines there are. */
+/* Gives each hole to its outline, the last hole first; returns the number of outlines. */
 static size_t
 share_holes(Nesting *nesting)
 {
@@ -247,7 +248,7 @@ share_holes(Nesting *nesting)
 		if (!hole->is_hole)
 			continue;
 		outline = outline_of(nesting, i);
-		/* holes that ask later have a short way */
+		/* shortens the way for later holes */
 		for (size_t at = i; nesting->rings.rings[at].is_hole;)
 		{
 			size_t		next = nesting->rings.rings[at].below;
@@ -284,7 +285,10 @@ put_polygon(const Nesting *nesting, const Ring *outline, int32 srid, StringInfo 
 		put_ring(nesting, &nesting->rings.rings[i], bytes);
 }
 
-/* _abacus_nest(rings geometry) -> geometry: of a MultiLineString a Polygon, or of several outlines a MultiPolygon */
+/*
+ * _abacus_nest(rings geometry) -> geometry: turns a MultiLineString into a Polygon, or, with
+ * several outlines, a MultiPolygon
+ */
 Datum
 abacus_sql_geometry_nest(PG_FUNCTION_ARGS)
 {

@@ -2,8 +2,8 @@
  * fn_geometry_place.c: functions of the extension abacus_postgis that take a point of
  * PostGIS in place of coordinates.
  *
- * Each is the function of the extension abacus, called with the coordinates of the point. There is
- * no answer for a point that is NULL or empty.
+ * Each calls the function of the extension abacus with the coordinates of the point. If the point
+ * is NULL or empty, there is no answer.
  */
 #include "postgres.h"
 
@@ -18,7 +18,7 @@
 
 #define MOST_ARGUMENTS 10
 
-/* NULL, or of a function that returns a set no rows. */
+/* NULL, or no rows if the function returns a set. */
 static Datum
 no_answer(FunctionCallInfo fcinfo)
 {
@@ -27,7 +27,7 @@ no_answer(FunctionCallInfo fcinfo)
 	PG_RETURN_NULL();
 }
 
-/* Calls a function with so many arguments, which are in `inner`, in place of this one. */
+/* Calls a function with this many arguments, which are in `inner`, in place of this one. */
 static Datum
 call(FunctionCallInfo fcinfo, PGFunction function, FunctionCallInfo inner, int arguments)
 {

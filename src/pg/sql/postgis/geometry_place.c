@@ -8,7 +8,7 @@
 #include "pg/postgis/geometry_errors.h"
 #include "pg/sql/postgis/geometry_place.h"
 
-/* The type of an argument that is a geometry, or that of the result: argument -1. */
+/* The type of an argument that is a geometry; for argument -1, of the result. */
 const GeometryType *
 geometry_argument_type(FunctionCallInfo fcinfo, int argument)
 {
@@ -16,7 +16,7 @@ geometry_argument_type(FunctionCallInfo fcinfo, int argument)
 						 : get_fn_expr_argtype(fcinfo->flinfo, argument));
 }
 
-/* A geometry is of the system of the mesh. */
+/* An error unless a geometry has the system of the mesh. */
 void
 geometry_check_srid(const abacus_form *form, int32 srid)
 {
@@ -24,7 +24,7 @@ geometry_check_srid(const abacus_form *form, int32 srid)
 		geometry_refuse_srid("the geometry", srid, (int32) form->srid, "mesh");
 }
 
-/* The coordinates of a point; a z in the plane is passed over. False for an empty one. */
+/* The coordinates of a point; z is ignored in the plane. False for an empty point. */
 bool
 geometry_place(FunctionCallInfo fcinfo, int argument, const char *what,
 			   const abacus_form *form, double *place)
@@ -44,7 +44,7 @@ geometry_place(FunctionCallInfo fcinfo, int argument, const char *what,
 	return true;
 }
 
-/* The numbers of a float8[] of any shape, as many as a multiple of `of`, and none of them NULL. */
+/* The numbers of a float8[] of any shape; their number is a multiple of `of`, and none is NULL. */
 const double *
 geometry_numbers(ArrayType *array, int of, size_t *count)
 {
@@ -57,8 +57,8 @@ geometry_numbers(ArrayType *array, int of, size_t *count)
 }
 
 /*
- * What the three corners of a triangle have of an attribute, whose number counts from 1; false if it
- * is missing at one.
+ * The attribute at the three corners of a triangle; its number counts from 1. False if it is
+ * missing at a corner.
  */
 bool
 geometry_corner_values(ArrayType *array, int attribute, double *values)

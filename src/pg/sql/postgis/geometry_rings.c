@@ -1,12 +1,12 @@
 /*
- * geometry_rings.c: closed lines in the plane, traced anew so that polygons can be made of them.
+ * geometry_rings.c: retraces closed lines in the plane so that polygons can be made from them.
  *
- * The lines go around regions, which are on their left. They may touch in vertices, and, where a band
- * ends at an edge whose ends are both exactly at a level, run along an edge in both directions:
- * nothing is between. Such pairs of edges go. The others are followed anew, at each vertex to the next
- * edge clockwise from where the line came from, so that it stays with one region. A line that comes
- * through a vertex again is cut there. So each region gets one outline, and holes that touch it or one
- * another in vertices only: what PostGIS takes for valid.
+ * The lines go around regions, which are on their left. They may touch in vertices. If a band ends
+ * at an edge whose ends are both exactly at a level, they run along this edge in both directions
+ * with nothing in between. Such pairs of edges are removed. The other edges are followed again, at
+ * each vertex to the next edge clockwise from where the line came from, so that it stays with one
+ * region. A line that comes through a vertex again is cut there. So each region gets one outline,
+ * and holes that touch it or one another only in vertices, which PostGIS accepts as valid.
  */
 #include "postgres.h"
 
@@ -23,7 +23,7 @@ places_compare(const double *a, const double *b)
 	return (a[1] > b[1]) - (a[1] < b[1]);
 }
 
-/* On which side of the line from a to b c is: 1 left, -1 right. */
+/* The side of the line from a to b on which c lies: 1 left, -1 right. */
 int
 places_side(const double *a, const double *b, const double *c)
 {
@@ -61,7 +61,7 @@ rings_order(const Rings *rings)
 	return order;
 }
 
-/* The vertex so many further along its ring. */
+/* The vertex this many steps further along its ring. */
 size_t
 ring_along(const Rings *rings, size_t vertex, size_t steps)
 {
@@ -104,7 +104,7 @@ rings_add_place(Rings *rings, const double *place)
 	ring->count++;
 }
 
-/* Keeps the ring, if it has an area. */
+/* Keeps the ring if it may have an area. */
 void
 rings_end_one(Rings *rings)
 {
@@ -129,20 +129,20 @@ rings_end_one(Rings *rings)
 
 /* ---- Tracing --------------------------------------------------------------- */
 
-/* The edge from a vertex to the next one of its ring has the vertex's number. */
+/* An edge has the number of its first vertex: it leads to the next one of the ring. */
 typedef struct Trace
 {
 	const Rings *given;
-	size_t	   *from;			/* of an edge: numbers of places */
+	size_t	   *from;			/* for each edge: numbers of places */
 	size_t	   *to;
-	const double **place;		/* by its number */
+	const double **place;		/* by their numbers */
 	size_t		places;
-	bool	   *gone;			/* an edge that has been followed, or has gone */
-	size_t	   *first;			/* of a place: where its edges begin in the list */
+	bool	   *gone;			/* for each edge: it was followed or removed */
+	size_t	   *first;			/* for each place: where its edges begin in the list */
 	size_t	   *list;			/* edges by the place where they begin */
 } Trace;
 
-/* Equal places get one number. */
+/* Numbers the places; equal places get one number. */
 static void
 number_places(Trace *trace)
 {
@@ -181,7 +181,7 @@ compare_edges(const void *a, const void *b, void *context)
 	return (x_greatest > y_greatest) - (x_greatest < y_greatest);
 }
 
-/* Takes pairs of edges away that go back and forth. */
+/* Removes pairs of edges that run back and forth. */
 static void
 cancel_pairs(Trace *trace)
 {
@@ -222,14 +222,14 @@ list_edges(Trace *trace)
 	for (size_t i = edges; i-- > 0;)
 		if (!trace->gone[i])
 			trace->list[--trace->first[trace->from[i] + 1]] = i;
-	/* each begins where the list of the place before ends */
+	/* each list begins where that of the place before ends */
 	memmove(trace->first, trace->first + 1, trace->places * sizeof(size_t));
 	trace->first[trace->places] = edges;
 	for (size_t i = 0; i < edges; i++)
 		trace->first[trace->places] -= trace->gone[i];
 }
 
-/* In which quarter, counterclockwise from the way back, a way from a place is. */
+/* The quarter, counterclockwise from the way back, in which a way from a place lies. */
 static int
 turn_of(const double *place, const double *back, const double *way)
 {
@@ -237,11 +237,11 @@ turn_of(const double *place, const double *back, const double *way)
 
 	if (side != 0)
 		return side > 0 ? 1 : 3;
-	/* on the line: beyond the place, or back */
+	/* on the line: forwards or back */
 	return (places_compare(back, place) < 0) == (places_compare(way, place) < 0) ? 0 : 2;
 }
 
-/* The next edge clockwise from where this one came from; NO_RING if there is none. */
+/* The next edge clockwise from where this one came; NO_RING if there is none. */
 static size_t
 next_edge(const Trace *trace, size_t edge)
 {
@@ -315,7 +315,7 @@ follow(Trace *trace, size_t begin, Rings *made, size_t *open, size_t *place_in_o
 		place_in_open[open[count - 1]] = NO_RING;
 }
 
-/* The rings traced anew. */
+/* The retraced rings. */
 Rings
 rings_traced(const Rings *given)
 {

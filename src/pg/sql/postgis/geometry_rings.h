@@ -1,5 +1,5 @@
 /*
- * geometry_rings.h: closed lines in the plane, which become polygons.
+ * geometry_rings.h: closed lines in the plane, from which polygons are made.
  */
 #ifndef ABACUS_GEOMETRY_RINGS_H
 #define ABACUS_GEOMETRY_RINGS_H
@@ -8,11 +8,11 @@
 
 typedef struct Ring
 {
-	size_t		first;			/* its vertices, the first of which is not repeated */
+	size_t		first;			/* its vertices; the first is not repeated */
 	size_t		count;
 	size_t		least;			/* the least vertex */
 	bool		is_hole;
-	size_t		below;			/* ring whose edge is next below a hole's least vertex */
+	size_t		below;			/* the ring of the edge just below a hole's least vertex */
 	size_t		next;			/* the next hole of the same outline */
 	size_t		holes;			/* the first hole of an outline */
 } Ring;
@@ -21,7 +21,7 @@ typedef struct Rings
 {
 	double	   *places;			/* x, y of all vertices */
 	size_t		vertices;
-	size_t	   *ring_of;		/* of a vertex */
+	size_t	   *ring_of;		/* for each vertex */
 	Ring	   *rings;
 	size_t		count;
 } Rings;

@@ -1,8 +1,8 @@
 /*
  * fn_locate.c: abacus_locate and abacus_walk, one simplex a call.
  *
- * These are called for every row of a query. A call that finds all it needs
- * in the session's cache opens no relation and takes no lock.
+ * These are called for every row of a query. If the session's cache has all the data that a call
+ * needs, the call opens no relation and takes no lock.
  */
 #include "postgres.h"
 
@@ -18,8 +18,7 @@ SQL_FUNCTION(abacus_sql_walk);
  * abacus_locate(mesh regclass, x float8, y float8) -> abacus_simplex
  * abacus_locate(mesh regclass, x float8, y float8, z float8) -> abacus_simplex
  *
- * Two functions, not one with a default: a z that is left out and a z that is
- * NULL are different things.
+ * Two functions, not one with a default: an omitted z and a z that is NULL are different things.
  */
 Datum
 abacus_sql_locate(PG_FUNCTION_ARGS)
@@ -32,7 +31,7 @@ abacus_sql_locate(PG_FUNCTION_ARGS)
 
 	cached = mesh_cache_get(PG_GETARG_OID(0));
 	if (!place_arguments(fcinfo, PG_NARGS() - 1, &cached->header.facts.form, point))
-		PG_RETURN_NULL();		/* outside of any hull */
+		PG_RETURN_NULL();		/* outside every hull */
 
 	host = cached->host;
 	status = host_run(host, abacus_mesh_locate, cached->mesh, point, &simplex);

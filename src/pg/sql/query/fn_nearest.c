@@ -1,8 +1,8 @@
 /*
  * fn_nearest.c: abacus_nearest, the vertices nearest to one place or to many.
  *
- * One place is looked for in the session's cache, as abacus_locate does; many
- * are sorted along the curve first (places.c says why).
+ * One place is answered from the session's cache, as in abacus_locate; many are sorted along the
+ * curve first (places.c says why).
  */
 #include "postgres.h"
 
@@ -40,7 +40,7 @@ enum
 	RANKED_COLUMNS
 };
 
-/* Adds a vertex near the one place; called by the core. */
+/* Adds a vertex near one given place; called by the core. */
 static abacus_host_status
 put_near(void *context, int64_t place, uint64_t rank, const abacus_vertex *vertex, double distance)
 {

@@ -1,5 +1,5 @@
 /*
- * fn_places.c: abacus_locate for the places of a query, many at once.
+ * fn_places.c: abacus_locate for the places of a query, all together.
  */
 #include "postgres.h"
 

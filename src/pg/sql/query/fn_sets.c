@@ -80,7 +80,10 @@ all_points(FunctionCallInfo fcinfo)
 	SRF_RETURN_NEXT(set, vertex_row(set->tuple_desc, &vertex, &reader->header.facts));
 }
 
-/* Whether a call has a window, or the range of an attribute. In 0.1.0 the mesh was the only argument. */
+/*
+ * Whether a call has a window, or the range of an attribute. In 0.1.0 the mesh was the only
+ * argument.
+ */
 static bool
 is_about_part(FunctionCallInfo fcinfo)
 {

@@ -1,6 +1,6 @@
 /*
- * fn_star.c: abacus_star and abacus_neighbours, the simplices around a place
- * and those near a simplex; both look into the session's cache.
+ * fn_star.c: abacus_star and abacus_neighbours, the simplices around a place and those near a
+ * simplex; both use the session's cache.
  */
 #include "postgres.h"
 
@@ -41,7 +41,7 @@ abacus_sql_star(PG_FUNCTION_ARGS)
 	answers.host = cached->host;
 	answers.dimension = cached->dimension;
 	if (!place_arguments(fcinfo, PG_NARGS() - 1, &cached->header.facts.form, point))
-		PG_RETURN_NULL();		/* outside of any hull */
+		PG_RETURN_NULL();		/* outside every hull */
 	host_run(answers.host, abacus_mesh_star, cached->mesh, point, put_simplex, &answers);
 	host_release(answers.host);
 	PG_RETURN_NULL();

@@ -10,7 +10,7 @@
 #include "pg/sql/rows/answers.h"
 #include "pg/sql/rows/result.h"
 
-/* Rows have arrays, some of them of so many attributes. */
+/* Prepares for rows with arrays, some of them with this many attributes. */
 void
 answers_have_arrays(Answers *answers, uint32 attributes)
 {
@@ -18,7 +18,7 @@ answers_have_arrays(Answers *answers, uint32 attributes)
 	answers->row = AllocSetContextCreate(CurrentMemoryContext, "Abacus row", ALLOCSET_DEFAULT_SIZES);
 }
 
-/* An array for one row; within the guard of the report. */
+/* An array for one row; under the guard of the report. */
 Datum
 answers_array(const Answers *answers, const double *numbers, uint32 count)
 {
@@ -29,7 +29,7 @@ answers_array(const Answers *answers, const double *numbers, uint32 count)
 	return array;
 }
 
-/* Adds a row, and forgets its arrays; within the guard of the report. */
+/* Adds a row and frees its arrays; under the guard of the report. */
 void
 answers_add(const Answers *answers, const Datum *values, const bool *isnull)
 {
@@ -39,7 +39,7 @@ answers_add(const Answers *answers, const Datum *values, const bool *isnull)
 		MemoryContextReset(answers->row);
 }
 
-/* Adds a row whose values are made; called by the core. */
+/* Adds a row from finished values; called by the core. */
 abacus_host_status
 answers_put(const Answers *answers, const Datum *values, const bool *isnull)
 {

@@ -10,13 +10,13 @@
 #include "abacus/facts.h"
 #include "pg/host/host.h"
 
-/* What the function that the core reports to needs: the context of the report. */
+/* The context of the core's reports. */
 typedef struct Answers
 {
 	Host	   *host;
-	ReturnSetInfo *set;			/* into whose tuplestore rows go */
+	ReturnSetInfo *set;			/* its tuplestore gets the rows */
 	const abacus_facts *facts;	/* of the mesh or the octree */
-	uint32		dimension;		/* of it */
+	uint32		dimension;		/* of the mesh or the octree */
 	uint32		attributes;		/* of a row */
 	MemoryContext row;			/* for arrays of a row; NULL: there are none */
 } Answers;

@@ -21,7 +21,7 @@ result_row_type(FunctionCallInfo fcinfo)
 }
 
 /*
- * An error unless a composite type of ours has columns of just these types: its owner may have
+ * An error unless a composite type of ours has columns of exactly these types: its owner may have
  * altered it. `attributes` and `hint` are for the message.
  */
 void
@@ -51,7 +51,7 @@ put_figure(const Figures *figures, const char *name, double value, const char *d
 	tuplestore_putvalues(figures->set->setResult, figures->set->setDesc, values, isnull);
 }
 
-/* What one of PostgreSQL's functions says of the size of a relation. */
+/* The size of a relation, from one of PostgreSQL's functions. */
 double
 bytes_of(PGFunction size, Oid relid)
 {

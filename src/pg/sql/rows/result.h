@@ -14,7 +14,7 @@
 typedef struct Figures
 {
 	ReturnSetInfo *set;
-	const char *prefix;			/* of the names that follow */
+	const char *prefix;			/* of the next names */
 } Figures;
 
 extern TupleDesc result_row_type(FunctionCallInfo fcinfo);

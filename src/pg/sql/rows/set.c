@@ -1,15 +1,14 @@
 /*
  * set.c: functions that return the rows of a mesh one by one.
  *
- * Between calls only the core's scan is kept, which holds a few decoded pages
- * in memory and nothing of PostgreSQL; so a query that stops early (LIMIT, a
- * closed cursor) leaves nothing behind.
+ * Between calls only the core's scan is kept, which holds a few decoded pages in memory and nothing
+ * of PostgreSQL. So a query that stops early (LIMIT, a closed cursor) leaves nothing behind.
  */
 #include "postgres.h"
 
 #include "pg/sql/rows/set.h"
 
-/* First call of a set: opens the mesh, its first argument, for the calls that follow. */
+/* First call of a set: opens the mesh, its first argument, for the later calls. */
 Reader *
 set_begin(FunctionCallInfo fcinfo, FuncCallContext *set,
 		  TupleDesc (*row_type) (FunctionCallInfo fcinfo))
@@ -17,7 +16,7 @@ set_begin(FunctionCallInfo fcinfo, FuncCallContext *set,
 	return set_begin_of(fcinfo, set, ABACUS_MESH, row_type);
 }
 
-/* The same of what is of another type. */
+/* The same for an object of another type. */
 Reader *
 set_begin_of(FunctionCallInfo fcinfo, FuncCallContext *set, uint32 type,
 			 TupleDesc (*row_type) (FunctionCallInfo fcinfo))

@@ -12,7 +12,7 @@
 #include "pg/sql/rows/result.h"
 #include "pg/sql/rows/simplex_row.h"
 
-/* An error unless the columns of the type are as we have made it. */
+/* An error unless the type has our columns. */
 static void
 require_type(TupleDesc row_type)
 {
@@ -25,8 +25,8 @@ require_type(TupleDesc row_type)
 }
 
 /*
- * Row type of a function that returns simplices, blessed, in the current memory context. Its
- * columns are those of the type, whose owner may have added some.
+ * The row type of a function that returns simplices, blessed, in the current memory context. Its
+ * columns are those of the type, to which its owner may have added some.
  */
 TupleDesc
 simplex_row_type(FunctionCallInfo fcinfo)
@@ -60,7 +60,7 @@ simplex_row(TupleDesc row_type, const abacus_simplex *simplex, uint32 dimension)
 	return HeapTupleGetDatum(heap_form_tuple(row_type, values, isnull));
 }
 
-/* What a function that is called for many rows needs for them, looked up once. */
+/* The data for a function that is called for many rows; looked up once. */
 SimplexRows *
 simplex_rows(FunctionCallInfo fcinfo)
 {
@@ -110,8 +110,8 @@ simplex_row_again(SimplexRows *rows, const abacus_simplex *simplex, uint32 dimen
 }
 
 /*
- * Code and corner ids of a simplex that SQL hands back. False for a row of
- * NULLs, which is what no simplex becomes in a FROM clause.
+ * The code and corner ids of a simplex that SQL passes back. False for a row of NULLs, which a
+ * missing simplex becomes in a FROM clause.
  */
 bool
 simplex_from_row(Datum row, TupleDesc row_type, uint32 dimension, uint64 *code, int64 *ids)
@@ -156,7 +156,7 @@ simplex_from_row(Datum row, TupleDesc row_type, uint32 dimension, uint64 *code, 
 	return true;
 }
 
-/* The same in a function that returns something else. */
+/* The same in a function that returns another type. */
 bool
 simplex_from_argument(Datum row, uint32 dimension, uint64 *code, int64 *ids)
 {

@@ -10,11 +10,11 @@
 #include "access/tupdesc.h"
 #include "fmgr.h"
 
-/* What a function that is called for many rows keeps of them. */
+/* The data that a function called for many rows keeps. */
 typedef struct SimplexRows
 {
 	TupleDesc	row_type;
-	HeapTupleHeader model[ABACUS_MAX_DIMENSION + 1];	/* the first row of a dimension */
+	HeapTupleHeader model[ABACUS_MAX_DIMENSION + 1];	/* the first row of each dimension */
 	MemoryContext memory;
 } SimplexRows;
 

@@ -1,6 +1,6 @@
 /*
- * fn_cells.c: the simplices of a window: abacus_simplices with one, and
- * abacus_cells, which gives their corners, attributes and labels as well.
+ * fn_cells.c: the simplices of a window: abacus_simplices with a window, and abacus_cells, which
+ * also returns their corners, attributes and labels.
  */
 #include "postgres.h"
 
@@ -19,7 +19,7 @@ SQL_FUNCTION(abacus_sql_simplices_in_ball);
 SQL_FUNCTION(abacus_sql_cells);
 SQL_FUNCTION(abacus_sql_cells_in_ball);
 
-/* Columns of abacus_cells: those of abacus_simplex, what its corners are, and its labels */
+/* Columns of abacus_cells: those of abacus_simplex, the data of its corners, and its labels */
 enum
 {
 	CELL_CORNERS = SIMPLEX_COLUMNS,

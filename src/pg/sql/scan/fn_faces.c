@@ -1,6 +1,6 @@
 /*
- * fn_faces.c: the vertices and edges of a window: abacus_vertices with one, or
- * with the range of an attribute, and abacus_edges.
+ * fn_faces.c: the vertices and edges of a window: abacus_vertices with a window, or with the range
+ * of an attribute, and abacus_edges.
  */
 #include "postgres.h"
 
@@ -27,13 +27,13 @@ enum
 	EDGE_V0,
 	EDGE_V1,
 	EDGE_LENGTH,
-	EDGE_PATH,					/* where lines are wanted */
+	EDGE_PATH,					/* if lines are wanted */
 	EDGE_COLUMNS
 };
 
 typedef enum Wanted
 {
-	VERTICES,					/* mesh, a window, and of a box an attribute and its range */
+	VERTICES,					/* mesh, a window, and for a box an attribute and its range */
 	EDGES,						/* mesh, a window, and max_edge */
 	EDGE_LINES					/* the same, with the coordinates of their ends */
 } Wanted;
@@ -121,7 +121,7 @@ next(FunctionCallInfo fcinfo, WindowForm form, Wanted wanted)
 	SRF_RETURN_NEXT(set, row);
 }
 
-/* abacus_vertices with a window, or the range of an attribute; none for a mesh that is NULL. */
+/* abacus_vertices with a window, or the range of an attribute; no rows if the mesh is NULL. */
 Datum
 faces_vertices(FunctionCallInfo fcinfo)
 {

@@ -1,6 +1,6 @@
 /*
- * fn_numbered.c: abacus_numbered_vertices and abacus_numbered_simplices, a mesh
- * as the two arrays that other programs want.
+ * fn_numbered.c: abacus_numbered_vertices and abacus_numbered_simplices, a mesh as the two arrays
+ * that other programs expect.
  */
 #include "postgres.h"
 
@@ -35,8 +35,8 @@ enum
 };
 
 /*
- * All pages are read before the first row is known, and what is sorted lies in spools; so the rows
- * go into a tuplestore, as those of a function in FROM do anyway.
+ * All pages are read before the first row is known, and sorted data lies in spools. So the rows go
+ * into a tuplestore, as those of a function in FROM do anyway.
  */
 static Reader *
 begin(FunctionCallInfo fcinfo, bool of_simplices)

@@ -28,7 +28,7 @@ enum
 	OUTLINE_COLUMNS = OUTLINE_X + ABACUS_MAX_DIMENSION
 };
 
-/* Arguments 1 and 2 of abacus_alpha_shape; what every circle is within asks for no bound. */
+/* Arguments 1 and 2 of abacus_alpha_shape; a value that no circle exceeds sets no bound. */
 static void
 alpha_arguments(FunctionCallInfo fcinfo, const abacus_form *form, abacus_outline_kind *kind)
 {

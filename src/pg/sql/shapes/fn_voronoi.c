@@ -1,6 +1,6 @@
 /*
- * fn_voronoi.c: abacus_voronoi, the cell of each vertex, and
- * abacus_voronoi_facets, what the cells have in common.
+ * fn_voronoi.c: abacus_voronoi, the cell of each vertex, and abacus_voronoi_facets, the facets
+ * between the cells.
  */
 #include "postgres.h"
 

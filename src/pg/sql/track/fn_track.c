@@ -1,11 +1,10 @@
 /*
- * fn_track.c: abacus_track and abacus_untrack: a mesh begins to follow a table,
- * and ends.
+ * fn_track.c: abacus_track and abacus_untrack, which make a mesh follow a table, and end that.
  *
- * The table is locked against writers first, so no row is missed: rows committed by
- * then are read here, and later ones meet the triggers. Then an empty mesh gets the
- * points of all rows. A mesh that has points must have exactly those. The difference of
- * the two multisets tells, and it is made good if the caller wishes.
+ * The table is locked against writers first, so no row is missed: rows committed by then are read
+ * here, and later ones meet the triggers. Then an empty mesh gets the points of all rows. A mesh
+ * with points must have exactly those. The difference of the two multisets is computed, and
+ * corrected if the caller wishes.
  */
 #include "postgres.h"
 
@@ -33,8 +32,7 @@ SQL_FUNCTION(abacus_sql_track);
 SQL_FUNCTION(abacus_sql_untrack);
 
 /*
- * Users who may not track the table must not keep others from writing it, so this comes
- * before the lock.
+ * Users who may not track the table must not block its writers, so this comes before the lock.
  */
 static void
 check_owner(Oid relid)
@@ -44,7 +42,7 @@ check_owner(Oid relid)
 		aclcheck_error(ACLCHECK_NOT_OWNER, OBJECT_TABLE, get_rel_name(relid));
 }
 
-/* The table to be tracked, locked. While it is open nobody drops it, not even an event trigger. */
+/* The table to track, locked. While it is open no one drops it, not even an event trigger. */
 static Relation
 open_table(Oid relid, LOCKMODE mode)
 {
@@ -57,7 +55,7 @@ open_table(Oid relid, LOCKMODE mode)
 	return table;
 }
 
-/* A partition or child is followed through its topmost parent; nothing but tables is. */
+/* A partition or child is followed through its topmost parent; only tables can be followed. */
 static void
 check_kind(Relation table)
 {
@@ -104,7 +102,7 @@ check_family(Relation table, List *family)
 	}
 }
 
-/* What cannot be tracked is refused. */
+/* Rejects a table that cannot be tracked. */
 static void
 check_table(Relation table)
 {
@@ -112,7 +110,7 @@ check_table(Relation table)
 	const char *name = RelationGetRelationName(table);
 
 	check_kind(table);
-	if (!object_ownercheck(RelationRelationId, relid, GetUserId()))	/* another one since */
+	if (!object_ownercheck(RelationRelationId, relid, GetUserId()))	/* it may have changed since */
 		aclcheck_error(ACLCHECK_NOT_OWNER, OBJECT_TABLE, name);
 	if (check_enable_rls(relid, InvalidOid, true) == RLS_ENABLED)
 		ereport(ERROR,
@@ -123,13 +121,13 @@ check_table(Relation table)
 				 errhint("Use ALTER TABLE ... NO FORCE ROW LEVEL SECURITY.")));
 }
 
-/* Refuses a pair of which one can be emptied or vanish without a trigger that tells the other. */
+/* Rejects a pair if one can be emptied or vanish without a trigger that informs the other. */
 static void
 check_persistence(Relation table, char of_mesh)
 {
 	char		of_table = table->rd_rel->relpersistence;
 
-	/* a temporary table is gone after a crash, and its triggers with it */
+	/* a temporary table is gone after a crash, and so are its triggers */
 	if (of_table == RELPERSISTENCE_TEMP)
 		return;
 	if (of_mesh == RELPERSISTENCE_TEMP)
@@ -147,7 +145,7 @@ check_persistence(Relation table, char of_mesh)
 				 errhint("Use ALTER TABLE ... SET LOGGED or SET UNLOGGED; a mesh has two tables.")));
 }
 
-/* Checks the rights of the table's owner, with which any session will later write the mesh. */
+/* Checks the rights of the table's owner, which every session will use to write the mesh. */
 static void
 check_mesh(Relation table, List *family, Oid mesh)
 {
@@ -173,7 +171,7 @@ check_mesh(Relation table, List *family, Oid mesh)
 	table_close(simplices, NoLock);
 }
 
-/* Whether the mesh is bound to the table, so that triggers which only name it do not count. */
+/* Whether the mesh is bound to the table, so that triggers that only name it do not count. */
 static bool
 is_bound_to(List *triggers, Oid table)
 {
@@ -189,7 +187,7 @@ is_bound_to(List *triggers, Oid table)
 	return false;
 }
 
-/* A mesh follows one table; returns its triggers on this one, its partitions and children. */
+/* A mesh follows one table; returns its triggers on this table, its partitions and children. */
 static List *
 present_triggers(Oid function, Oid mesh, Relation table)
 {
@@ -202,7 +200,7 @@ present_triggers(Oid function, Oid mesh, Relation table)
 	{
 		TrackingTrigger *trigger = lfirst(cell);
 
-		/* a partition that was detached still has its auxiliary trigger */
+		/* a detached partition still has its auxiliary trigger */
 		if (tracking_root(trigger->table) == RelationGetRelid(table) ||
 			(trigger->auxiliary && object_ownercheck(RelationRelationId, trigger->table, GetUserId())))
 			present = lappend(present, trigger);
@@ -229,7 +227,7 @@ read_points(Change *change, const char *query)
 	return change->points;
 }
 
-/* Brings the mesh in step, or says that it is not; false if it was already. */
+/* Brings the mesh in step, or reports that it is not; false if it already was. */
 static bool
 make_equal(Change *change, Oid mesh, Relation table, List *columns, bool synchronize,
 		   Oid extension_namespace)
@@ -242,7 +240,7 @@ make_equal(Change *change, Oid mesh, Relation table, List *columns, bool synchro
 	uint64		missing;
 	uint64		surplus;
 
-	/* the first of these is an error, unless the mesh has no SRID and takes it */
+	/* a geometry of another system is an error, unless the mesh has no SRID and takes it */
 	if (elsewhere != NULL)
 		read_points(change, elsewhere);
 	/* both are read before the mesh changes, since a query would see it half changed */
@@ -257,7 +255,7 @@ make_equal(Change *change, Oid mesh, Relation table, List *columns, bool synchro
 				 errdetail("Points missing from the mesh: " UINT64_FORMAT "; surplus points in the mesh: "
 						   UINT64_FORMAT ".", missing, surplus),
 				 errhint("Use synchronize => true to insert and delete them.")));
-	/* inserted first, a point whose attributes alone differ takes over from the other */
+	/* since it is inserted first, a point that differs only in its attributes replaces the other */
 	change_hold(change);
 	change_swap_stages(change);
 	if (missing > 0)
@@ -269,7 +267,7 @@ make_equal(Change *change, Oid mesh, Relation table, List *columns, bool synchro
 	return missing + surplus > 0 || srid != facts->form.srid;
 }
 
-/* How many attributes the mesh has had and has no more. */
+/* How many attributes of the mesh have been dropped. */
 static uint32
 dropped_attributes(const Change *change)
 {
@@ -305,7 +303,7 @@ abacus_sql_track(PG_FUNCTION_ARGS)
 		ereport(ERROR,
 				(errcode(ERRCODE_NULL_VALUE_NOT_ALLOWED),
 				 errmsg("mesh, table, synchronize and deferred must not be NULL")));
-	PreventCommandIfReadOnly("abacus_track()");	/* before the lock, which a standby has not */
+	PreventCommandIfReadOnly("abacus_track()");	/* before the lock, which a standby does not have */
 	if (IsolationUsesXactSnapshot())
 		ereport(ERROR,
 				(errcode(ERRCODE_ACTIVE_SQL_TRANSACTION),
@@ -344,7 +342,7 @@ abacus_sql_track(PG_FUNCTION_ARGS)
 	else
 		change_abandon(change);
 
-	/* it has been locked by the change, and must not be dropped before its triggers are bound */
+	/* the change has locked it, and it must not be dropped before its triggers are bound */
 	simplices = table_open(mesh, NoLock);
 	if (call.former != NIL)
 	{
@@ -376,7 +374,7 @@ abacus_sql_untrack(PG_FUNCTION_ARGS)
 	{
 		TrackingTrigger *trigger = lfirst(cell);
 
-		/* a partition's auxiliary one goes with those of the table that the mesh follows */
+		/* a partition's auxiliary trigger goes with those of the table that the mesh follows */
 		if (tracking_root(trigger->table) != table && (trigger->table != table || trigger->auxiliary))
 			continue;
 		tracking_drop(trigger);

@@ -2,24 +2,22 @@
  * fn_tracked.c: abacus_tracked, the trigger function that keeps a mesh in step
  * with a table.
  *
- * It is called once after each statement. Points that a statement adds are inserted first,
- * then those that it takes away are deleted. So a vertex of which only attributes change is
- * renamed: the new point waits beside the old one and takes over, and the triangulation
- * stays as it is. Where a statement changes nothing but attributes, not even that is needed: they
- * are changed where they are. A statement that changes no point does not touch the mesh, nor wait for
- * its other writers. In a mesh that follows at commit the points are only noted
- * (pending.c).
+ * It is called once after each statement. Points that a statement adds are inserted first, then
+ * those that it removes are deleted. So a vertex that only gets new attributes is renamed: the new
+ * point waits beside the old one and takes over, and the triangulation stays as it is. If a
+ * statement changes only attributes, not even that is needed: they are changed in place. A
+ * statement that changes no point neither touches the mesh nor waits for its other writers. If a
+ * mesh follows at commit, the points are only noted (pending.c).
  *
- * A statement may reach a table through its parent, and it fires the statement triggers only of the
+ * A statement may reach a table through its parent, but fires only the statement triggers of the
  * table that it names. So tables with partitions or children have triggers for each row, which
- * PostgreSQL also gives to partitions that are attached later. These triggers note points.
+ * PostgreSQL also adds to partitions that are attached later. These triggers note points.
  *
- * The mesh is written with the rights of the table's owner, as for foreign keys: users
- * who may write the table need no privileges on the mesh, and the owner's are checked.
- * No code of a user runs meanwhile. That holds for triggers bound to their mesh
- * (tracking.c), which the owner has made by abacus_track(). Other triggers may name any
- * mesh. They change it with the rights of the user only, as any function of a trigger
- * does.
+ * The mesh is written with the rights of the table's owner, as for foreign keys: users who may
+ * write the table need no privileges on the mesh, and the owner's are checked. No code of a user
+ * runs meanwhile. That holds for triggers bound to their mesh (tracking.c), which the owner has
+ * made by abacus_track(). Other triggers may name any mesh. They change it only with the rights of
+ * the user, as any function of a trigger does.
  */
 #include "postgres.h"
 
@@ -34,7 +32,7 @@
 
 SQL_FUNCTION(abacus_sql_tracked);
 
-/* Whether a trigger for a statement has what the event gives: its transition tables. */
+/* Whether a statement trigger has what its event provides: its transition tables. */
 static bool
 fits_statement(const TriggerData *trigger)
 {
@@ -81,7 +79,7 @@ stage(Transition *transition, bool new, Change *change)
 	return transition_send(transition, new, to_stage, change);
 }
 
-/* Other attributes of points that stay, into the mesh. */
+/* Writes new attributes of points that stay into the mesh. */
 static void
 revise(const TriggerData *trigger, Transition *transition, Change *change)
 {
@@ -102,7 +100,7 @@ revise(const TriggerData *trigger, Transition *transition, Change *change)
 	pfree(attributes);
 }
 
-/* Whether revise() can do it: points that wait are found by id and place only. */
+/* Whether revise() can do it: waiting points are found by id and place only. */
 static bool
 can_be_revised(Transition *transition, const Change *change)
 {
@@ -112,7 +110,7 @@ can_be_revised(Transition *transition, const Change *change)
 		transition_revises(transition);
 }
 
-/* What the statement has added and taken away, into the mesh. */
+/* Applies the added and removed points of the statement to the mesh. */
 static void
 follow(const TriggerData *trigger, Transition *transition, Change *change)
 {
@@ -131,7 +129,7 @@ follow(const TriggerData *trigger, Transition *transition, Change *change)
 		change_take_srid(change, transition_srid(transition));
 		change_insert(change);
 	}
-	/* the point of another row at the place must not be taken for one that is missing */
+	/* another row's point at the place must not be taken for a missing one */
 	if (transition->old.rows != NULL && (gone = stage(transition, false, change)) > 0)
 		in_step_check_found(change, RelationGetRelationName(trigger->tg_relation), "delete", gone,
 							change_delete(change, true));
@@ -139,8 +137,8 @@ follow(const TriggerData *trigger, Transition *transition, Change *change)
 }
 
 /*
- * Changes the mesh as the statement has changed the table. Without a transition the
- * statement has emptied it.
+ * Changes the mesh as the statement has changed the table. If there is no transition, the statement
+ * has emptied the table.
  */
 static void
 change_mesh(const TriggerData *trigger, Transition *transition)
@@ -199,7 +197,7 @@ note_statement(const TriggerData *trigger, Transition *transition)
 	pending_take_srid(pending, transition_srid(transition));
 }
 
-/* What is kept from row to row of a statement. */
+/* State kept from row to row of a statement. */
 typedef struct RowNotes
 {
 	Transition *transition;
@@ -228,7 +226,7 @@ note_row(FunctionCallInfo fcinfo)
 	pending_take_srid(notes->pending, transition_srid(notes->transition));
 }
 
-/* Notes that the rows of a partition or child, which is going to be truncated, are gone. */
+/* Notes that the rows of a partition or child that will be truncated are gone. */
 static void
 note_all_gone(const TriggerData *trigger, const Transition *transition)
 {

@@ -27,7 +27,7 @@ enum
 	HOW_ARGUMENTS
 };
 
-/* Slopes are of what stands over the plane. */
+/* An error unless the mesh is in the plane: a slope needs a surface over it. */
 static void
 require_plane(FunctionCallInfo fcinfo)
 {
@@ -36,7 +36,7 @@ require_plane(FunctionCallInfo fcinfo)
 								 "In space, use abacus_gradient().");
 }
 
-/* Sets the gradient, of as many numbers as it returns; 0 where there is none. */
+/* Sets the gradient and returns the number of its components; 0 if there is none. */
 static int
 find_gradient(FunctionCallInfo fcinfo, double *gradient)
 {
@@ -74,13 +74,16 @@ abacus_sql_gradient(PG_FUNCTION_ARGS)
 	PG_RETURN_DATUM(attribute_array(gradient, count));
 }
 
-/* Where a gradient leads downhill: degrees from north, clockwise, 0 to less than 360. */
+/*
+ * The direction in which a gradient leads downhill: degrees from north, clockwise, 0 to less than
+ * 360.
+ */
 static double
 downhill(const double *gradient)
 {
 	double		degrees = atan2(-gradient[0], -gradient[1]) * (180 / M_PI);
 
-	/* not -0, and not 360, which the sum may round to */
+	/* neither -0 nor 360, to which the sum may round */
 	degrees = degrees < 0 ? degrees + 360 : degrees + 0.0;
 	return degrees < 360 ? degrees : 0;
 }

@@ -1,8 +1,8 @@
 /*
  * fn_interpolate.c: abacus_interpolate, values of attributes between the vertices.
  *
- * That of one place is called for every row of a query, and works as
- * abacus_locate does; that of a query asks for all places together.
+ * The form for one place is called for every row of a query, and works as abacus_locate does; the
+ * form for a query answers all places together.
  */
 #include "postgres.h"
 

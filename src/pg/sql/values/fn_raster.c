@@ -40,7 +40,7 @@ enum
 	ROW_COLUMNS
 };
 
-/* What an array can have: PostgreSQL makes it of as many datums, with a head. */
+/* The most values of an array: PostgreSQL makes it from as many datums, with a head. */
 #define MOST_VALUES ((int) (MaxAllocSize / sizeof(Datum)) - 16)
 
 typedef struct Rows
@@ -50,7 +50,7 @@ typedef struct Rows
 	int			next;
 } Rows;
 
-/* How many pixels there are on an axis. */
+/* The number of pixels on an axis. */
 static uint32
 pixels_argument(FunctionCallInfo fcinfo, int argument, const char *name, int most)
 {

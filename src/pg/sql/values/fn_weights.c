@@ -1,5 +1,5 @@
 /*
- * fn_weights.c: abacus_weights, what a value between the vertices takes of theirs.
+ * fn_weights.c: abacus_weights, the weights of the vertices in a value between them.
  */
 #include "postgres.h"
 

@@ -128,7 +128,7 @@ require_plane(const Reader *reader)
 				 errhint("In space, give abacus_volume() a base, the value that divides one mesh.")));
 }
 
-/* A call of the core that reads two meshes: either may be the one that has failed. */
+/* A call of the core that reads two meshes: either of them may have failed. */
 static void
 measure_between(Reader *first, Reader *second, const abacus_surface *surface,
 				uint32 second_attribute, abacus_volume *volume)
@@ -188,7 +188,7 @@ abacus_sql_volume_between(PG_FUNCTION_ARGS)
 	PG_RETURN_DATUM(volume_between(fcinfo, PG_GETARG_OID(OF_OTHER)));
 }
 
-/* Whether a text is a number. No name begins like one, without double quotes. */
+/* Whether a text is a number. No name without double quotes begins like one. */
 static bool
 is_number(const char *text, double *number)
 {
@@ -203,8 +203,8 @@ is_number(const char *text, double *number)
 }
 
 /*
- * The same with the other mesh's name as text: what PostgreSQL takes all that is quoted for, so it
- * may be a base.
+ * The same with the other mesh's name as text: PostgreSQL takes every quoted argument for that, so
+ * it may also be a base.
  */
 Datum
 abacus_sql_volume_between_named(PG_FUNCTION_ARGS)
