@@ -2,8 +2,8 @@
 // with their types, and last the SRID if there is one. If simplices have labels or facets have
 // markers, the SRID is always there, and the facts about labels and markers follow. Newer features
 // have one form: all these words, how many vertices share their places, and then the names, unless
-// there are so many that they have rows of their own. A user can write any bytes into these rows, so
-// decoding checks every field; it accepts exactly the bytes that encoding can produce.
+// there are so many that they have rows of their own. A user can write any bytes into these rows,
+// so decoding checks every field; it accepts exactly the bytes that encoding can produce.
 #include "capi/guard.hpp"
 
 #include <abacus/mesh_header.h>
