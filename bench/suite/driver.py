@@ -34,6 +34,7 @@ class Book:
     document: pathlib.Path  # beside it, in a folder of its name: pictures and results.json
     report: typing.Callable  # of the results and the folder of the pictures
     results: pathlib.Path  # a JSON file a part; quick/ and smoke/ have their own
+    template: pathlib.Path = None  # that the document is made of, if it is not filled in itself
 
     @property
     def committed(self):
@@ -85,7 +86,7 @@ def chosen_parts(parts, names):
 
 def write_report(book, mode):
     """Of the full mode into docs/, together with what is there; of others beside their results."""
-    text = book.document.read_text()
+    text = (book.template or book.document).read_text()
     if mode == "full":
         results = Results.read(book.committed).merge_files(book.results)
         results.write(book.committed)
