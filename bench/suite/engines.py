@@ -29,7 +29,7 @@ class Program:
 
 
 class Abacus:
-    """abacus_triangulate with a cache of a given size, all other settings at their defaults."""
+    """abacus_triangulate by one thread with a cache of a given size, all other settings at their defaults."""
 
     def __init__(self, cache):
         self.labels = {"engine": "abacus", "cache": cache}

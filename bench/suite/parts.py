@@ -72,8 +72,9 @@ PARTS = [
         3, {"full": (1000000, 500000), "quick": (100000, 100000), "smoke": (5000, 2000)})),
     Part("surfaces", "isosurface beside VTK's, section, picture of the inside", 3,
          Surfaces({"full": 0.218, "quick": 0.1, "smoke": 0.03}).measure),
-    Part("ask", "values, contours and windows, beside SciPy and matplotlib", 8, Ask(
-        {"full": (1000000, 1000000, 10000000), "quick": (100000, 100000, 1000000), "smoke": (5000, 2000, 20000)}).measure),
+    Part("ask", "values, contours and windows, beside SciPy and matplotlib", 7, Ask(
+        {"full": (1000000, 1000000, 10000000, 20000), "quick": (100000, 100000, 1000000, 20000),
+         "smoke": (5000, 2000, 20000, 1000)}).measure),
     Part("raster", "a raster of 4096² pixels, beside gdal_grid's", 12, Raster(
         {"full": (1000000, 4096), "quick": (100000, 512), "smoke": (5000, 64)}).measure),
     Part("carried", "windows of a foreign table, tiles of web maps, facets with markers, files", 5, Carried(

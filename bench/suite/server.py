@@ -16,12 +16,12 @@ from psql_session import Failure
 
 
 class Session(psql_session.Session):
-    """A psql whose backend is watched."""
+    """A psql whose backend is watched. It computes with one thread, as those that it is compared with, unless told otherwise."""
 
     def __init__(self, **settings):
         super().__init__()
         self.backend = int(self.run("SELECT pg_backend_pid()"))
-        for name, value in settings.items():
+        for name, value in ({"abacus__threads": 1} | settings).items():
             self.run(f"SET {name.replace('__', '.')} = '{value}'")
 
     def run(self, sql):
