@@ -25,8 +25,10 @@ def contests(*contests):
 
 FEWER = {"full": 3, "quick": 1, "smoke": 1}
 
-# By one thread, by two, and by all processors, each number once
-THREADS = tuple(f"threads:{count}" for count in sorted({1, 2, os.cpu_count()}))
+# By one thread, by two, and by all processors, each number once; CGAL has threads in space only
+COUNTS = sorted({1, 2, os.cpu_count()})
+THREADS = tuple(f"threads:{count}" for count in COUNTS)
+PARALLEL = tuple(f"cgal_parallel:{count}" for count in COUNTS)
 
 # What the cost of a point of very many is compared with: few, just before them and just after
 BESIDE = Contest(2, "uniform", {"full": 1000000}, ("abacus:64",), what="beside")
@@ -47,19 +49,19 @@ PARTS = [
     Part("shorelines", "shorelines, borders and rivers of the world", 3, contests(
         Contest(2, "shorelines", {"full": 0},
                 ("cgal", "abacus:default", "abacus:8"), FEWER))),
-    Part("3d", "uniform points in space, all engines", 5, contests(
+    Part("3d", "uniform points in space, all engines", 6, contests(
         Contest(3, "uniform", {"full": 1000000, "quick": 100000, "smoke": 5000},
-                ("cgal", "abacus:default", "abacus:16", "abacus:largest", "tetgen", "qhull")))),
+                ("cgal", "abacus:default", "abacus:16", "abacus:largest", THREADS[-1], PARALLEL[-1], "tetgen", "qhull")))),
     Part("3d-quake", "points of an earthquake model", 4.5, contests(
         Contest(3, "quake", {"full": 1000000, "quick": 130000, "smoke": 5000},
                 ("cgal", "abacus:default", "abacus:largest", "tetgen")))),
     Part("2d-100m", "a hundred times as many uniform points, 64 MB of cache", 9, contests(
         BESIDE, Contest(2, "uniform", {"full": 100000000}, ("abacus:64",), FEWER, disk=16 << 30), BESIDE)),
-    Part("threads", "the same builds, deletions, checks, locations, sorts and loads by one thread, by two, and by all processors", 8, contests(
+    Part("threads", "the same builds, deletions, checks, locations, sorts and loads by one thread, by two, and by all processors", 12, contests(
         Contest(2, "uniform", {"full": 10000000, "quick": 1000000, "smoke": 100000},
                 THREADS, FEWER, what="threads"),
         Contest(3, "uniform", {"full": 1000000, "quick": 100000, "smoke": 20000},
-                THREADS, FEWER, what="threads"),
+                THREADS + PARALLEL, FEWER, what="threads"),
         SharedReading(2, {"full": (1000000, 1000000), "quick": (200000, 200000), "smoke": (40000, 20000)}, FEWER),
         SharedReading(3, {"full": (500000, 500000), "quick": (50000, 100000), "smoke": (20000, 20000)}, FEWER),
         SharedLoading(2, {"full": 1000000, "quick": 100000, "smoke": 20000}, FEWER),
