@@ -13,6 +13,10 @@ PACKAGES = (SERVER, "libcgal-dev", "libtbb-dev", "libtet1.[0-9]", "libqhull-r8.[
             "python3-scipy", "python3-matplotlib", "python3-vtk9", "gdal-bin", "libp4est-dev")
 
 
+class LeftOut(Exception):
+    """What was to be measured cannot be measured on this machine, for want of room or of a device."""
+
+
 def output(*command):
     """What a command prints; empty if there is no such command or it fails."""
     try:
@@ -57,7 +61,9 @@ def version():
 
 
 def built():
-    """How the programs were compiled, and of what."""
+    """How the programs were compiled, and of what; of programs that were brought here the folder says it."""
+    if paths.BROUGHT.exists():
+        return json.loads(paths.BROUGHT.read_text())
     changed = bool(output("git", "status", "--porcelain", "--untracked-files=no",
                           "--", "src", "include", "sql", "bench", "Makefile.pgxs"))
     return {

@@ -8,6 +8,7 @@ from core import core
 from driver import Part
 from edits import Edits, SharedDeletes, cancelled_builds
 from goose import Goose
+from gpu import Gpu
 from location import location
 from octrees import Octrees
 from rasters import Raster
@@ -83,6 +84,10 @@ PARTS = [
         {"full": (1000000, 800000), "quick": (100000, 50000), "smoke": (5000, 500)}, FEWER).measure),
     Part("octree", "octrees of points: made, balanced, extracted, asked, beside p4est", 8, Octrees(
         {"full": 5000000, "quick": 200000, "smoke": 3000}).measure),
+    Part("gpu", "CuPy on an NVIDIA GPU beside the core by 1 to 16 threads; skipped elsewhere", 4, Gpu(
+        {"full": (("uniform", 1000000), ("curves", 1000000), ("uniform", 10000000)),
+         "quick": (("uniform", 1000000), ("curves", 1000000)), "smoke": (("uniform", 20000),)},
+        {"full": 1000000, "quick": 1000000, "smoke": 5000}, {"full": 5, "quick": 3, "smoke": 1}).measure, needs_server=False),
     Part("goose", "insertion by an R-tree (chapter 2), in the plane", 4, Goose(
         2, {"full": (25000, 50000, 100000, 200000), "quick": (10000, 20000), "smoke": (1000,)}, FEWER).measure),
     Part("goose-3d", "insertion by an R-tree (chapter 2), in space", 4, Goose(

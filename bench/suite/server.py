@@ -10,6 +10,7 @@ import subprocess
 import threading
 import time
 
+import machine
 import paths
 import psql_session
 from psql_session import Failure
@@ -120,15 +121,11 @@ def await_recovery(seconds=300):
         time.sleep(0.5)
 
 
-class NoDisk(Exception):
-    """There is not enough room for what was to be measured."""
-
-
 def require_disk(needed):
     """Bytes that must be free where the server keeps its data."""
     free = shutil.disk_usage(os.environ["PGHOST"]).free
     if free < needed:
-        raise NoDisk(f"{needed / 2**30:.0f} GB of disk are needed, {free / 2**30:.0f} GB are free")
+        raise machine.LeftOut(f"{needed / 2**30:.0f} GB of disk are needed, {free / 2**30:.0f} GB are free")
 
 
 def drop(*tables):
