@@ -33,6 +33,7 @@ test=(
     "${server[@]}" "${core[@]}"
     libbenchmark-dev
     libtet1.5-dev libqhull-dev      # TetGen and Qhull, for comparison
+    libtbb-dev                      # threads of CGAL's parallel triangulation, for comparison
     clang libclang-rt-14-dev        # clang brings libFuzzer
     clang-format clang-tidy
     gnuplot-nox                     # plots of docs/benchmarks.md

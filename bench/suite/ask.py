@@ -24,20 +24,21 @@ RATES = {
 
 
 class Ask:
-    """sizes: of the mesh that is compared with others, of the places, and of the mesh of the windows."""
+    """sizes: of the mesh that is compared with others, of the places, of the mesh of the windows, and of the places that
+    SciPy gets, which takes long for each."""
 
     def __init__(self, sizes):
         self.sizes = sizes
 
     def measure(self, suite):
         self.suite = suite
-        size, places, large = self.sizes[suite.mode]
+        size, self.places, large, self.few = self.sizes[suite.mode]
         self.runs = {"full": 5, "quick": 3, "smoke": 1}[suite.mode]
         server.restart(shared_buffers="2GB" if large >= 1000000 else "128MB")
         try:
             self.make_mesh(size)
-            create_places(PointSet(2, "uniform", size), places)
-            self.labels = {"points": size, "places": places}
+            create_places(PointSet(2, "uniform", size), self.places)
+            self.labels = {"points": size}
             self.contours()
             self.rates()
             self.beside_others()
@@ -65,14 +66,14 @@ class Ask:
         least = min(sample["wall"] for sample in samples)
         self.suite.say(f"  {question:24} {engine:8} {least:9.4f} s")
 
-    def timed(self, question, statement):
+    def timed(self, question, statement, **figures):
         """With the settings that a session has."""
         with server.Session(max_parallel_workers_per_gather=0) as session:
             session.run(statement)
             samples = [session.timed(statement) for _ in range(self.runs)]
         for sample in samples:
             sample["answers"] = sample.pop("printed")
-        self.record(question, "abacus", samples)
+        self.record(question, "abacus", samples, **figures)
 
     def contours(self):
         levels = ",".join(map(str, LEVELS))
@@ -91,17 +92,20 @@ class Ask:
                     if turn > 0:  # the first one fills the cache
                         samples[question].append(sample)
         for question, taken in samples.items():
-            self.record(question, "abacus", taken)
+            self.record(question, "abacus", taken, places=self.places)
 
     def beside_others(self):
-        """What SciPy and matplotlib take, in a process of their own; ours of the same kind before."""
-        self.timed("interpolate", "SELECT count(\"values\"[1]) FROM abacus_interpolate('mesh', 'SELECT id, x, y FROM places')")
+        """What SciPy and matplotlib take, in a process of their own; ours of the same kind before. All places, and as few
+        as SciPy gets: what a place takes is compared."""
+        for count in self.places, self.few:
+            self.timed("interpolate", "SELECT count(\"values\"[1]) FROM abacus_interpolate('mesh',"
+                       f" 'SELECT id, x, y FROM places LIMIT {count}')", places=count)
         folder = paths.DATA / "peers"
         folder.mkdir(parents=True, exist_ok=True)
         try:
             for name, query in ("points", "SELECT x, y, height FROM points ORDER BY id"), \
                                ("triangles", "SELECT v0 - 1, v1 - 1, v2 - 1 FROM abacus_simplices('mesh')"), \
-                               ("places", "SELECT x, y FROM places"):
+                               ("places", f"SELECT x, y FROM places LIMIT {self.few}"):
                 with open(folder / f"{name}.csv", "w") as file:
                     subprocess.run(["psql", "-X", "-q", "-c", f"COPY ({query}) TO STDOUT (FORMAT csv)"], stdout=file, check=True)
             printed = subprocess.run(["/usr/bin/python3", paths.ROOT / "bench/suite/peers.py", folder, str(self.runs),
@@ -110,18 +114,20 @@ class Ask:
             shutil.rmtree(folder)
         for line in printed.splitlines():
             measured = json.loads(line)
-            engine = "matplotlib" if measured["question"] == "contours" else "scipy"
-            self.record(measured["question"], engine, measured["samples"])
+            question = measured["question"]
+            self.record(question, "matplotlib" if question == "contours" else "scipy", measured["samples"],
+                        **({"places": self.few} if question == "interpolate" else {}))
 
     def window(self):
-        """Triangles of a hundredth of the mesh, and of all of it: time, and pages read."""
+        """Triangles of a hundredth of the mesh, and of all of it, once: time, and pages read."""
         statements = {"whole": "SELECT count(*) FROM abacus_cells('mesh')",
                       "window": "SELECT count(*) FROM abacus_cells('mesh', lower => '{0.45,0.45}', upper => '{0.55,0.55}')"}
         for question, statement in statements.items():
             with server.Session(max_parallel_workers_per_gather=0) as session:
-                session.run(statement)
+                if question == "window":
+                    session.run(statement)
                 samples = []
-                for _ in range(self.runs):
+                for _ in range(self.runs if question == "window" else 1):
                     sample = session.timed(statement)
                     del sample["printed"]
                     plan = json.loads(session.run(f"EXPLAIN (ANALYZE, BUFFERS, FORMAT JSON) {statement}"))[0]["Plan"]

@@ -7,7 +7,7 @@ import server
 from points import PointSet
 
 SLOW = 60  # seconds: an engine that takes longer runs three times, or once
-EXACT = ("cgal", "abacus")
+EXACT = ("cgal", "cgal_parallel", "abacus")
 
 
 @dataclasses.dataclass

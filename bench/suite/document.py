@@ -5,19 +5,44 @@ A document is written by hand, except for what stands between
     <!-- begin NAME -->
     <!-- end NAME -->
 
-which `fill` replaces by what the generator of that name returns.
+which `fill` replaces by what the generator of that name returns. `make` makes a document of a template
+with such regions: the marks are left out, and so are the sections in which nothing was measured.
 """
 import re
 
 REGION = re.compile(r"(<!-- begin ([\w-]+) -->\n).*?(<!-- end \2 -->)", re.DOTALL)
+NOTE = re.compile(r"\A<!--.*?-->\n", re.DOTALL)  # of a template, about itself
+SECTION = re.compile(r"^(?=##)", re.MULTILINE)
 
 
-def fill(text, generators):
-    """The document with every region made anew; generators: {name: function without arguments}."""
+def contents(text, generators):
+    """What is to stand in each region; generators: {name: function without arguments}."""
     names = set(match[2] for match in REGION.finditer(text))
     if names != set(generators):
         raise LookupError(f"regions without generators, or the other way round: {names ^ set(generators)}")
-    return REGION.sub(lambda match: match[1] + generators[match[2]]().rstrip("\n") + "\n" + match[3], text)
+    return {name: generators[name]().rstrip("\n") for name in sorted(names)}
+
+
+def fill(text, generators):
+    """The document with every region made anew."""
+    made = contents(text, generators)
+    return REGION.sub(lambda match: match[1] + made[match[2]] + "\n" + match[3], text)
+
+
+def make(template, generators):
+    """The document of a template, with the sections that have something to say."""
+    made = contents(template, generators)
+    kept, below = [], False  # from the last section to the first: whether one below the next heading is kept
+    for section in reversed(SECTION.split(NOTE.sub("", template))):
+        regions = [made[match[2]] for match in REGION.finditer(section)]
+        is_top = not section.startswith("###")
+        if not regions or any(regions) or (is_top and below):
+            kept.insert(0, section)
+            below = not is_top
+        elif is_top:
+            below = False
+    text = REGION.sub(lambda match: made[match[2]], "".join(kept))
+    return re.sub(r"\n{3,}", "\n\n", text).rstrip("\n") + "\n"
 
 
 class Document:
@@ -41,20 +66,23 @@ class Document:
             about = part["machine"]
             rows.append((f"`{name}`", part["mode"], about["date"], about["commit"], number(about["load"]),
                          f"{part['seconds'] / 60:.1f}"))
-            key = tuple(str(about[field]) for field in ("cpu", "cores", "memory_bytes", "kernel",
-                                                        "compiler", "flags", "packages"))
+            key = tuple(str(about.get(field)) for field in ("abacus", "cpu", "cores", "gpu", "memory_bytes", "kernel",
+                                                            "compiler", "flags", "packages"))
             machines[key] = about
         for about in machines.values():
             packages = ", ".join(f"{name} {version}" for name, version in about["packages"].items())
-            text += (f"{about['cores']} cores of {about['cpu']}, {size(about['memory_bytes'])} of memory,"
+            version = f"Abacus {about['abacus']}; " if about.get("abacus") else ""
+            gpu = f"one {about['gpu']}, " if about.get("gpu") else ""
+            text += (f"{version}{about['cores']} cores of {about['cpu']}, {gpu}{size(about['memory_bytes'])} of memory,"
                      f" Linux {about['kernel']}; {about['compiler']}, `{about['flags']}`; {packages}.\n\n")
         return text + table(("part", "mode", "date", "commit", "load before", "minutes"), rows)
 
 
 def table(head, rows):
-    """A table of GitHub's Markdown; columns after the first are right-aligned. An empty one says what it waits for."""
-    lines = [] if rows else ["Not measured yet on the machine of this page.", ""]
-    lines += ["| " + " | ".join(head) + " |", "|---|" + "---:|" * (len(head) - 1)]
+    """A table of GitHub's Markdown; columns after the first are right-aligned. Nothing without rows."""
+    if not rows:
+        return ""
+    lines = ["| " + " | ".join(head) + " |", "|---|" + "---:|" * (len(head) - 1)]
     lines += ["| " + " | ".join(str(cell) for cell in row) + " |" for row in rows]
     return "\n".join(lines) + "\n"
 

@@ -1,7 +1,8 @@
 """Runs parts, keeps their results, and makes a document of them: what the benchmarks and the
 evaluation have in common.
 
-    full|quick|smoke [PART...], or report, or list
+    full|quick|smoke [PART...], or report, or list; or alone MODE PART, for one that needs no server:
+    prints its results
 """
 import dataclasses
 import pathlib
@@ -15,7 +16,7 @@ import typing
 import machine
 import paths
 import server
-from results import Results, write_part
+from results import Results, dump, write_part
 
 
 @dataclasses.dataclass
@@ -25,6 +26,7 @@ class Part:
     minutes: float  # of the full mode, about
     measure: typing.Callable  # of a Suite
     only_named: bool = False
+    needs_server: bool = True
 
 
 @dataclasses.dataclass
@@ -34,6 +36,7 @@ class Book:
     document: pathlib.Path  # pictures and results.json lie beside it, in a folder with its name
     report: typing.Callable  # of the results and the folder for the pictures
     results: pathlib.Path  # a JSON file a part; quick/ and smoke/ have their own
+    template: pathlib.Path = None  # that the document is made of, if it is not filled in itself
 
     @property
     def committed(self):
@@ -46,33 +49,52 @@ class Suite:
     def __init__(self, mode, folder):
         self.mode = mode
         self.folder = folder if mode == "full" else folder / mode
-        self.measurements = []
+        self.measurements, self.about = [], {}
 
     def say(self, text):
         print(text, flush=True)
 
-    def run(self, part):
-        """Measures a part; false if that failed, which leaves its earlier results as they were."""
+    def measured(self, part):
+        """What the file of a part holds."""
         self.say(f"\n== {part.name}: {part.what}")
         self.measurements = []
         start = time.monotonic()
+        self.about = machine.describe()
+        if part.needs_server:
+            self.about["settings"] = server.settings()
+        part.measure(self)
+        return {"part": part.name, "mode": self.mode, "seconds": round(time.monotonic() - start),
+                "machine": self.about, "measurements": self.measurements}
+
+    def run(self, part):
+        """Measures a part; false if that failed, which leaves its earlier results as they were."""
         try:
-            about = machine.describe()
-            about["settings"] = server.settings()
-            part.measure(self)
-        except server.NoDisk as problem:
+            content = self.measured(part)
+        except machine.LeftOut as problem:
             self.say(f"left out: {problem}")
             return True
         except (server.Failure, subprocess.CalledProcessError) as problem:
             self.say(f"FAILED: {problem}")
             return False
         if self.measurements:
-            write_part(self.folder, {
-                "part": part.name, "mode": self.mode, "seconds": round(time.monotonic() - start),
-                "machine": about, "measurements": self.measurements})
+            write_part(self.folder, content)
         else:
             self.say("nothing in this mode")
         return True
+
+
+class Alone(Suite):
+    """Of a part that needs no server: what it says does not mix with its results on standard output."""
+
+    def say(self, text):
+        print(text, file=sys.stderr, flush=True)
+
+    def print(self, part):
+        try:
+            print(dump(self.measured(part)))
+        except machine.LeftOut as problem:
+            self.say(f"left out: {problem}")
+            sys.exit(77)
 
 
 def chosen_parts(parts, names):
@@ -85,7 +107,7 @@ def chosen_parts(parts, names):
 
 def write_report(book, mode):
     """Of the full mode into docs/, together with what is there; of others beside their results."""
-    text = book.document.read_text()
+    text = (book.template or book.document).read_text()
     if mode == "full":
         results = Results.read(book.committed).merge_files(book.results)
         results.write(book.committed)
@@ -110,6 +132,9 @@ def main(book):
         print(f"{'all':14} {unnamed:4g} min")
     elif mode == "report":
         write_report(book, "full")
+    elif mode == "alone":
+        mode, name = names
+        Alone(mode, book.results).print(*chosen_parts(book.parts, [name]))
     else:
         suite = Suite(mode, book.results)
         if mode != "full" and not names:

@@ -28,8 +28,21 @@ class Program:
         return {}
 
 
+class Parallel(Program):
+    """CGAL's parallel triangulation, by so many threads."""
+
+    def __init__(self, threads):
+        super().__init__("cgal_parallel")
+        self.labels["threads"] = threads
+
+    def sample(self, points: PointSet):
+        done = subprocess.run([self.program, str(points.dimension), points.file, self.labels["threads"]],
+                              stdout=subprocess.PIPE, check=True)
+        return json.loads(done.stdout)
+
+
 class Abacus:
-    """abacus_triangulate with a cache of a given size, all other settings at their defaults."""
+    """abacus_triangulate by one thread with a cache of a given size, all other settings at their defaults."""
 
     def __init__(self, cache):
         self.labels = {"engine": "abacus", "cache": cache}
@@ -104,8 +117,14 @@ class KeptPostGIS(PostGIS):
 
 
 def engine(name, say):
-    """Of a name: cgal, tetgen, qhull, postgis, postgis:kept, abacus:CACHE or threads:COUNT; None if
-    it is not installed."""
+    """Of a name: cgal, tetgen, qhull, postgis, postgis:kept, abacus:CACHE, threads:COUNT or cgal_parallel:COUNT;
+    None if it is not installed."""
+    if name.startswith("cgal_parallel:"):
+        parallel = Parallel(name.removeprefix("cgal_parallel:"))
+        if parallel.program.exists():
+            return parallel
+        say("CGAL's parallel triangulation is left out: it was built without TBB (libtbb-dev)")
+        return None
     if name.startswith("threads:"):
         return Threads(name.removeprefix("threads:"))
     if name.startswith("abacus:"):

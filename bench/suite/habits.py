@@ -73,11 +73,11 @@ def extrapolation(pairs):
             f" {number(seconds)} s, {number(seconds / extrapolated(pairs, 2))} times as long as Abacus.")
 
 
-def times_abacus(results):
-    """CPU time of Goose to that of Abacus in the plane, at the dissertation's number of points."""
+def times_abacus(results, figure="cpu"):
+    """Time of Goose to that of Abacus in the plane, at the dissertation's number of points."""
     for count, goose_run, abacus in goose_pairs(results, 2):
         if count == DISSERTATION_POINTS:
-            return ratio(median(goose_run, "cpu"), median(abacus, "cpu"))
+            return ratio(median(goose_run, figure), median(abacus, figure))
     return None
 
 
@@ -93,8 +93,8 @@ def shares(pairs):
     return table(("percent", "dissertation, 2D", f"here, {count:,} points"), rows)
 
 
-def times_rows(habit):
-    """Places that Abacus locates in the CPU time that a table takes for one, along the curve, in the
+def times_rows(habit, figure="cpu"):
+    """Places that Abacus locates in the time that a table takes for one, along the curve, in the
     largest mesh, of the most places."""
     def measured(results):
         tables = results.all(what="rows", engine=habit, order="ordered")
@@ -103,7 +103,7 @@ def times_rows(habit):
         slow = max(tables, key=lambda m: (m["points"], m["places"]))
         abacus = results.one(what="rows", engine="abacus", order="ordered", points=slow["points"],
                              places=slow["places"])
-        return ratio(median(slow, "cpu"), median(abacus, "cpu"))
+        return ratio(median(slow, figure), median(abacus, figure))
     return measured
 
 

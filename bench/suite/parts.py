@@ -8,6 +8,7 @@ from core import core
 from driver import Part
 from edits import Edits, SharedDeletes, cancelled_builds
 from goose import Goose
+from gpu import Gpu
 from location import location
 from octrees import Octrees
 from rasters import Raster
@@ -25,8 +26,10 @@ def contests(*contests):
 
 FEWER = {"full": 3, "quick": 1, "smoke": 1}
 
-# One thread, two, and one for each processor; each number once
-THREADS = tuple(f"threads:{count}" for count in sorted({1, 2, os.cpu_count()}))
+# One thread, two, and one for each processor, each number once; CGAL has threads in space only
+COUNTS = sorted({1, 2, os.cpu_count()})
+THREADS = tuple(f"threads:{count}" for count in COUNTS)
+PARALLEL = tuple(f"cgal_parallel:{count}" for count in COUNTS)
 
 # The cost of a point among very many is compared with this smaller build, just before and just after
 BESIDE = Contest(2, "uniform", {"full": 1000000}, ("abacus:64",), what="beside")
@@ -47,19 +50,19 @@ PARTS = [
     Part("shorelines", "shorelines, borders and rivers of the world", 3, contests(
         Contest(2, "shorelines", {"full": 0},
                 ("cgal", "abacus:default", "abacus:8"), FEWER))),
-    Part("3d", "uniform points in space, all engines", 5, contests(
+    Part("3d", "uniform points in space, all engines", 6, contests(
         Contest(3, "uniform", {"full": 1000000, "quick": 100000, "smoke": 5000},
-                ("cgal", "abacus:default", "abacus:16", "abacus:largest", "tetgen", "qhull")))),
+                ("cgal", "abacus:default", "abacus:16", "abacus:largest", THREADS[-1], PARALLEL[-1], "tetgen", "qhull")))),
     Part("3d-quake", "points of an earthquake model", 4.5, contests(
         Contest(3, "quake", {"full": 1000000, "quick": 130000, "smoke": 5000},
                 ("cgal", "abacus:default", "abacus:largest", "tetgen")))),
     Part("2d-100m", "a hundred times as many uniform points, 64 MB of cache", 9, contests(
         BESIDE, Contest(2, "uniform", {"full": 100000000}, ("abacus:64",), FEWER, disk=16 << 30), BESIDE)),
-    Part("threads", "the same builds, deletions, checks, locations, sorts and loads by one thread, by two, and by all processors", 8, contests(
+    Part("threads", "the same builds, deletions, checks, locations, sorts and loads by one thread, by two, and by all processors", 12, contests(
         Contest(2, "uniform", {"full": 10000000, "quick": 1000000, "smoke": 100000},
                 THREADS, FEWER, what="threads"),
         Contest(3, "uniform", {"full": 1000000, "quick": 100000, "smoke": 20000},
-                THREADS, FEWER, what="threads"),
+                THREADS + PARALLEL, FEWER, what="threads"),
         SharedReading(2, {"full": (1000000, 1000000), "quick": (200000, 200000), "smoke": (40000, 20000)}, FEWER),
         SharedReading(3, {"full": (500000, 500000), "quick": (50000, 100000), "smoke": (20000, 20000)}, FEWER),
         SharedLoading(2, {"full": 1000000, "quick": 100000, "smoke": 20000}, FEWER),
@@ -72,14 +75,19 @@ PARTS = [
         3, {"full": (1000000, 500000), "quick": (100000, 100000), "smoke": (5000, 2000)})),
     Part("surfaces", "isosurface beside VTK's, section, picture of the inside", 3,
          Surfaces({"full": 0.218, "quick": 0.1, "smoke": 0.03}).measure),
-    Part("ask", "values, contours and windows, beside SciPy and matplotlib", 8, Ask(
-        {"full": (1000000, 1000000, 10000000), "quick": (100000, 100000, 1000000), "smoke": (5000, 2000, 20000)}).measure),
+    Part("ask", "values, contours and windows, beside SciPy and matplotlib", 7, Ask(
+        {"full": (1000000, 1000000, 10000000, 20000), "quick": (100000, 100000, 1000000, 20000),
+         "smoke": (5000, 2000, 20000, 1000)}).measure),
     Part("raster", "a raster of 4096² pixels, beside gdal_grid's", 12, Raster(
         {"full": (1000000, 4096), "quick": (100000, 512), "smoke": (5000, 64)}).measure),
     Part("carried", "windows of a foreign table, tiles of web maps, facets with markers, files", 5, Carried(
         {"full": (1000000, 800000), "quick": (100000, 50000), "smoke": (5000, 500)}, FEWER).measure),
     Part("octree", "octrees of points: made, balanced, extracted, asked, beside p4est", 8, Octrees(
         {"full": 5000000, "quick": 200000, "smoke": 3000}).measure),
+    Part("gpu", "CuPy on an NVIDIA GPU beside the core by 1 to 16 threads; skipped elsewhere", 4, Gpu(
+        {"full": (("uniform", 1000000), ("curves", 1000000), ("uniform", 10000000)),
+         "quick": (("uniform", 1000000), ("curves", 1000000)), "smoke": (("uniform", 20000),)},
+        {"full": 1000000, "quick": 1000000, "smoke": 5000}, {"full": 5, "quick": 3, "smoke": 1}).measure, needs_server=False),
     Part("goose", "insertion by an R-tree (chapter 2), in the plane", 4, Goose(
         2, {"full": (25000, 50000, 100000, 200000), "quick": (10000, 20000), "smoke": (1000,)}, FEWER).measure),
     Part("goose-3d", "insertion by an R-tree (chapter 2), in space", 4, Goose(

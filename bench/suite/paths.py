@@ -8,5 +8,6 @@ RELEASE = BUILD / "release"
 PROGRAMS = RELEASE / "bench"
 ORACLE_POINTS = RELEASE / "test/oracle/oracle_points"
 DATA = BUILD / "bench"               # files of points, while a part runs
+BROUGHT = BUILD / "brought.json"     # of a folder that `bench.sh pack` has made: what machine.built() said there
 
 sys.path.append(str(ROOT / "scripts"))  # psql_session.py

@@ -47,8 +47,7 @@ def main(folder, runs, levels):
     linear = LinearNDInterpolator(points[:, :2], heights)
     linear(places[:10])
     sampled("interpolate", runs, lambda _: int(numpy.isfinite(linear(places)).sum()))
-    sampled("build and interpolate", runs,
-            lambda _: int(numpy.isfinite(LinearNDInterpolator(Delaunay(points[:, :2]), heights)(places)).sum()))
+    sampled("build", runs, lambda _: len(LinearNDInterpolator(Delaunay(points[:, :2]), heights).points))
 
 
 main(sys.argv[1], int(sys.argv[2]), [float(level) for level in sys.argv[3:]])

@@ -14,8 +14,8 @@ LAYER = """<OGRVRTDataSource><OGRVRTLayer name="points"><SrcDataSource>{file}</S
 
 
 def abacus(pixels):
-    # In a select list, rows are passed on one by one.
-    with server.Session(abacus__cache_size=f"{server.cache_size('largest')}MB") as session:
+    # In a select list, rows are passed on one by one. Both compute with all processors.
+    with server.Session(abacus__threads=0, abacus__cache_size=f"{server.cache_size('largest')}MB") as session:
         sample = session.timed(f"SELECT count(*) FROM (SELECT abacus_raster('relief', '{{0, 0}}', '{{1, 1}}', {pixels}, {pixels}) OFFSET 0) AS row")
     del sample["printed"]
     return sample

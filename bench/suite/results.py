@@ -15,6 +15,8 @@ Results are the files of all parts in one: {"parts": {"2d": {...}, ...}}.
 import json
 import statistics
 
+SAME = ("cpu", "cores", "memory_bytes", "kernel", "gpu", "compiler", "flags", "abacus")
+
 
 class Results:
     """The measurements of several parts."""
@@ -46,6 +48,21 @@ class Results:
         return [measurement for part in self.parts.values() for measurement in part["measurements"]
                 if all(measurement.get(key) == value for key, value in labels.items())]
 
+    def groups(self):
+        """[(machine, results)] of the parts that were measured on the same machine with the same versions. The
+        packages of the machine are those of all these parts."""
+        groups = []
+        for name, part in self.parts.items():
+            about = part["machine"]
+            for known, parts in groups:
+                if is_same(about, known):
+                    known["packages"] |= about["packages"]
+                    parts[name] = part
+                    break
+            else:
+                groups.append((about | {"packages": dict(about["packages"])}, {name: part}))
+        return [(about, Results(parts)) for about, parts in groups]
+
     def one(self, **labels):
         """The measurement that has these labels, or None."""
         found = self.all(**labels)
@@ -57,6 +74,12 @@ class Results:
         """The median of a figure of that measurement; None if it was not measured."""
         measurement = self.one(**labels)
         return None if measurement is None else median(measurement, figure)
+
+
+def is_same(machine, other):
+    """A package that one of them lacks makes no difference: later parts have more peers."""
+    return all(machine.get(key) == other.get(key) for key in SAME) and all(
+        other["packages"].get(name, version) == version for name, version in machine["packages"].items())
 
 
 def write_part(folder, part):

@@ -10,18 +10,19 @@ import subprocess
 import threading
 import time
 
+import machine
 import paths
 import psql_session
 from psql_session import Failure
 
 
 class Session(psql_session.Session):
-    """A psql whose backend is watched."""
+    """A psql whose backend is watched. It computes with one thread, as those that it is compared with, unless told otherwise."""
 
     def __init__(self, **settings):
         super().__init__()
         self.backend = int(self.run("SELECT pg_backend_pid()"))
-        for name, value in settings.items():
+        for name, value in ({"abacus__threads": 1} | settings).items():
             self.run(f"SET {name.replace('__', '.')} = '{value}'")
 
     def run(self, sql):
@@ -120,15 +121,11 @@ def await_recovery(seconds=300):
         time.sleep(0.5)
 
 
-class NoDisk(Exception):
-    """There is not enough room for what was to be measured."""
-
-
 def require_disk(needed):
     """Bytes that must be free where the server keeps its data."""
     free = shutil.disk_usage(os.environ["PGHOST"]).free
     if free < needed:
-        raise NoDisk(f"{needed / 2**30:.0f} GB of disk are needed, {free / 2**30:.0f} GB are free")
+        raise machine.LeftOut(f"{needed / 2**30:.0f} GB of disk are needed, {free / 2**30:.0f} GB are free")
 
 
 def drop(*tables):

@@ -11,6 +11,7 @@ def mesh_name(measurement):
     return f"{measurement['dimension']}D, {points(measurement['points'])} points"
 
 
+SETS = {"curves": "clusters and curves"}  # whose names say too little
 CACHES = {"largest": "of any size", "tenth": "a tenth of the mesh"}
 ORDERS = {"ordered": "along the curve", "places": "at random"}
 FORMS = {"a_call_each": "each a call", "one_call": "in one call"}
@@ -73,9 +74,10 @@ def asking(results):
     rows = []
     for m in results.all(what="ask"):
         wall, pages = spread_of(m, "wall"), spread_of(m, "pages")
-        rows.append((f"{points(m['points'])} points: {m['question']}", ENGINES[m["engine"]], f"{spread(wall)} s",
+        places = f", {m['places']:,} places" if "places" in m else ""
+        rows.append((f"{points(m['points'])} points: {m['question']}{places}", ENGINES[m["engine"]], f"{spread(wall)} s",
                      f"{number(statistics.median(values(m, 'cpu')))} s" if values(m, "cpu") else "–",
-                     number(m["places"] / wall[0]) if "places" in m and "," in m["question"] else "–",
+                     number(m["places"] / wall[0]) if places else "–",
                      number(pages and pages[0]), number(rate(m)) if m.get("written") else "–", len(m["samples"])))
     return table(("question", "", "wall", "CPU", "places a second", "pages", "MB a second", "runs"), rows)
 
@@ -93,13 +95,29 @@ def threads(results):
     """Builds, readings and loads by several numbers of threads, each beside one thread."""
     rows, alone = [], {}
     for m in [*results.all(what="threads"), *results.all(what="shared reading")]:
-        what = f"{mesh_name(m)}: {SHARED[m.get('question', 'build')]}"
+        work = "CGAL's parallel triangulation, in memory" if m.get("engine") == "cgal_parallel" else SHARED[m.get("question", "build")]
+        what = f"{mesh_name(m)}: {work}"
         wall = spread_of(m, "wall")
         if m["threads"] == "1":
             alone[what] = wall[0]
         rows.append((what, m["threads"], f"{spread(wall)} s", f"{number(statistics.median(values(m, 'cpu')))} s",
                      number(ratio(alone.get(what), wall[0])), len(m["samples"])))
     return table(("", "threads", "wall", "CPU", "times as fast", "runs"), rows)
+
+
+def gpu(results):
+    """CuPy, and the core by several numbers of threads, each beside CuPy."""
+    rows = []
+    for m in results.all(what="gpu"):
+        cupy = results.one(what="gpu", engine="cupy", set=m["set"], points=m["points"])
+        times = []
+        for figure in "wall", "interpolate":
+            found = spread_of(m, figure)
+            times += [f"{spread(found)} s", number(ratio(found[0], spread_of(cupy, figure)[0]) if cupy else None)]
+        rows.append((f"{points(m['points'])} points, {SETS.get(m['set'], m['set'])}; {points(m['places'])} places",
+                     "CuPy" if m["engine"] == "cupy" else f"Abacus, {m['threads']} thread{'s' * (m['threads'] > 1)}",
+                     *times[:2], f"{m['samples'][-1]['missing']:,}", *times[2:], len(m["samples"])))
+    return table(("points", "", "triangulation", "÷ CuPy", "points in no triangle", "interpolation", "÷ CuPy", "runs"), rows)
 
 
 def edits(results):

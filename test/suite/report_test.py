@@ -1,6 +1,6 @@
 #!/usr/bin/python3
-"""Reports of the benchmark suite: figures, verdicts, pictures, and that docs/benchmarks.md is what its
-results say."""
+"""Reports of the benchmark suite: figures, ratios, verdicts, pictures, and that docs/benchmarks.md is what its
+template and its results say."""
 import json
 import pathlib
 import sys
@@ -12,10 +12,14 @@ sys.path.insert(0, str(ROOT / "bench/suite"))
 
 import acceptance
 import document
+import heads
 import plots
+import ratios
 import results
 import tables
 from report import Report
+
+TEMPLATE = ROOT / "bench/suite/page.md.in"
 
 
 def build(engine, points, *seconds, **labels):
@@ -24,11 +28,19 @@ def build(engine, points, *seconds, **labels):
                     for wall in seconds]}
 
 
+def part(name, *measurements, **machine):
+    machine = {"cpu": "one", "cores": 1, "memory_bytes": 1 << 30, "kernel": "6", "compiler": "c++", "abacus": "1.0",
+               "flags": "-O3", "packages": {}, "commit": "0", "date": "today", "load": 0.0} | machine
+    return {"part": name, "mode": "full", "seconds": 60, "machine": machine, "measurements": list(measurements)}
+
+
 def of(*measurements):
-    machine = {"cpu": "one", "cores": 1, "memory_bytes": 1 << 30, "kernel": "6", "compiler": "c++",
-               "flags": "-O3", "packages": {}, "commit": "0", "date": "today", "load": 0.0}
-    return results.Results({"part": {"part": "part", "mode": "full", "seconds": 60, "machine": machine,
-                                     "measurements": list(measurements)}})
+    return results.Results({"part": part("part", *measurements)})
+
+
+def page(found):
+    with tempfile.TemporaryDirectory() as name:
+        return Report(found, pathlib.Path(name) / "benchmarks").fill(TEMPLATE.read_text())
 
 
 def verdict(number, found):
@@ -125,6 +137,89 @@ class Verdicts(unittest.TestCase):
         self.assertEqual(verdict(number, of(edit)), "not measured")
 
 
+    def test_aims_have_a_line_each_measured_or_not(self):
+        text = acceptance.aims(of(build("cgal", 10**6, 1.0), build("abacus", 10**6, 2.0, cache="default")))
+        self.assertEqual(len(text.splitlines()), 2 + len(acceptance.WANTED))
+        self.assertIn("| ≤ 1.0 | 2.00 | 2.00 | **missed** |", text)
+        self.assertIn("| ≤ 0.8 | – | – | not measured |", text)
+
+
+def ask(engine, question, seconds, places=None):
+    return {"what": "ask", "engine": engine, "question": question, "points": 10**6,
+            "samples": [{"wall": seconds, "cpu": seconds}]} | ({"places": places} if places else {})
+
+
+class Ratios(unittest.TestCase):
+    def of(self, what, *measurements):
+        """(peer, elapsed) of the rows of such work."""
+        text, _ = ratios.ratios(of(*measurements))
+        cells = [[cell.strip() for cell in line.split("|")[1:-1]] for line in text.splitlines()]
+        return [(row[1], row[2]) for row in cells if what in row[0]]
+
+    def test_only_what_was_measured_has_a_row(self):
+        self.assertEqual(ratios.ratios(of()), ("", set()))
+        text, engines = ratios.ratios(of(build("abacus", 10**6, 1.0, cache="default"), build("postgis", 10**6, 20.0)))
+        self.assertEqual(len(text.splitlines()), 3)
+        self.assertIn("| triangulation of 1 M uniform points | PostGIS, to a geometry | 1/20 | 1/20 |", text)
+        self.assertEqual(engines, {"postgis"})
+
+    def test_interpolation_is_compared_by_the_place(self):
+        found = [ask("abacus", "interpolate", 1.0, 10**6), ask("abacus", "interpolate", 0.1, 20000),
+                 ask("scipy", "interpolate", 0.08, 20000), ask("scipy", "build", 4.0)]
+        self.assertEqual([elapsed for _, elapsed in self.of("interpolation", *found)], ["0.250", "1.25", "0.125"])
+        self.assertEqual(self.of("interpolation", *found[:2]), [])
+        self.assertEqual(len(self.of("interpolation", *found[:3])), 2)
+
+    def test_threads_are_compared_with_as_many(self):
+        def by(engine, threads, seconds, what="threads"):
+            return build(engine, 10**6, seconds, what=what, dimension=3, threads=threads)
+        found = [by("abacus", "1", 3.0), by("abacus", "2", 2.0), by("cgal_parallel", "1", 6.0), by("cgal_parallel", "2", 2.5)]
+        self.assertEqual([elapsed for _, elapsed in self.of("thread", *found)], ["0.500", "0.800"])
+        # The part 3d has builds by threads beside those by one, which stay what is compared with CGAL
+        beside = [by("abacus", "2", 9.0, "build"), build("abacus", 10**6, 1.0, dimension=3, cache="default"),
+                  build("cgal", 10**6, 2.0, dimension=3), by("cgal_parallel", "2", 3.0, "build")]
+        self.assertEqual(self.of("of 1 M uniform points", *beside), [("CGAL, in memory", "0.500")])
+        self.assertEqual([elapsed for _, elapsed in self.of("by 2 threads", *beside)], ["3.00"])
+
+    def test_the_gpu_is_compared_with_most_threads(self):
+        def on(engine, seconds, **more):
+            return {"what": "gpu", "engine": engine, "set": "uniform", "points": 10**6, "places": 10**6,
+                    "samples": [{"wall": seconds, "interpolate": seconds / 2, "missing": 455}]} | more
+        found = [on("cupy", 0.05), on("abacus", 1.0, threads=1), on("abacus", 0.5, threads=16)]
+        self.assertEqual([elapsed for _, elapsed in self.of("16 threads", *found)], ["10.0", "10.0"])
+        text = tables.gpu(of(*found))
+        self.assertIn("| 1 M points, uniform; 1 M places | CuPy | 0.0500 s | 1.00 | 455 | 0.0250 s | 1.00 | 1 |", text)
+        self.assertIn("| Abacus, 16 threads | 0.500 s | 10.0 |", text)
+
+
+class Heads(unittest.TestCase):
+    PACKAGES = {"postgresql-15": "15.20-0+deb12u1", "libcgal-dev": "5.5.1-2", "postgresql-15-postgis-3": "3.3.2+dfsg-1+b1",
+                "libgeos3.11.1": "3.11.1-1", "gdal-bin": "1:3.6.2+dfsg-1"}
+
+    def test_it_says_versions_and_machine(self):
+        about = part("part", packages=self.PACKAGES)["machine"]
+        self.assertEqual(heads.head(about, {"abacus", "postgis", "postgis_kept"}),
+                         "Abacus 1.0, PostgreSQL 15.20, PostGIS 3.3.2, GEOS 3.11.1; 1 core of one, 1.00 GB of memory:\n\n")
+        self.assertEqual(heads.versions(about, {"cgal", "cgal_parallel", "gdal"}),
+                         ["Abacus 1.0", "PostgreSQL 15.20", "CGAL 5.5.1", "GDAL 3.6.2"])
+
+    def test_a_table_has_one_machine(self):
+        def edit(dimension):
+            return {"what": "edit", "change": "insert many", "dimension": dimension, "points": 9, "changed": 9,
+                    "samples": [{"wall": 1.0, "wal": 9}]}
+        found = results.Results({"edit-2d": part("edit-2d", edit(2)), "edit-3d": part("edit-3d", edit(3), cpu="another"),
+                                 "edit": part("edit", edit(2), packages={"gdal-bin": "3"})})
+        self.assertEqual([list(group.parts) for _, group in found.groups()], [["edit-2d", "edit"], ["edit-3d"]])
+        text = page(found)
+        self.assertEqual(text.count("| mesh | change |"), 2)
+        self.assertIn("core of another, 1.00 GB of memory:\n\n| mesh | change |", text)
+
+    def test_other_versions_are_another_group(self):
+        found = results.Results({"a": part("a", packages={"gdal-bin": "3"}), "b": part("b", packages={"gdal-bin": "4"}),
+                                 "c": part("c", abacus="2.0")})
+        self.assertEqual(len(found.groups()), 3)
+
+
 class Tables(unittest.TestCase):
     def test_threads_stand_beside_one(self):
         def read(threads, seconds):
@@ -141,9 +236,14 @@ class Tables(unittest.TestCase):
                    "samples": [{"wall": 2.0, "cpu": 1.0, "bytes": 10**7}]}
         self.assertIn("| 9 points: PLY of 8 triangles | Abacus | 2.00 s | 1.00 s | – | – | 5.00 | 1 |", tables.asking(of(written)))
 
-    def test_an_empty_table_says_so(self):
-        self.assertTrue(tables.asking(of()).startswith("Not measured yet"))
-        self.assertNotIn("Not measured", document.table(("a",), [("b",)]))
+    def test_places_have_a_rate(self):
+        self.assertIn("| 1 M points: interpolate, 20,000 places | SciPy | 2.00 s | 2.00 s | 10,000 |",
+                      tables.asking(of(ask("scipy", "interpolate", 2.0, 20000))))
+
+    def test_without_rows_there_is_no_table(self):
+        self.assertEqual(document.table(("a", "b"), []), "")
+        for name in "asking", "threads", "surfaces", "gpu", "location":
+            self.assertEqual(getattr(tables, name)(of()), "")
 
 
 class Storage(unittest.TestCase):
@@ -157,11 +257,11 @@ class Storage(unittest.TestCase):
         with tempfile.TemporaryDirectory() as name:
             folder = pathlib.Path(name)
             old = of(build("cgal", 10**6, 1))
-            part = of(build("cgal", 10**6, 2)).parts["part"]
-            results.write_part(folder, part)
+            new = of(build("cgal", 10**6, 2)).parts["part"]
+            results.write_part(folder, new)
             self.assertEqual(old.merge_files(folder).median("wall", engine="cgal"), 2)
             old.write(folder / "all" / "results.json")
-            self.assertEqual(results.Results.read(folder / "all" / "results.json").parts, {"part": part})
+            self.assertEqual(results.Results.read(folder / "all" / "results.json").parts, {"part": new})
 
     def test_two_measurements_of_the_same_are_not_mixed(self):
         with self.assertRaises(LookupError):
@@ -180,6 +280,22 @@ class Documents(unittest.TestCase):
         with self.assertRaises(LookupError):
             document.fill("", {"x": str})
 
+    def test_sections_without_a_measurement_are_left_out(self):
+        template = ("<!-- about\nthe template -->\n# A\ntext\n\n## B\nof b\n\n<!-- begin b -->\n<!-- end b -->\n\n### C\nof c\n"
+                    "<!-- begin c -->\n<!-- end c -->\n## D\nby hand\n")
+        def made(b, c):
+            return document.make(template, {"b": lambda: b, "c": lambda: c})
+        self.assertEqual(made("", ""), "# A\ntext\n\n## D\nby hand\n")
+        self.assertEqual(made("new\n", ""), "# A\ntext\n\n## B\nof b\n\nnew\n\n## D\nby hand\n")
+        # A section stays for one below it
+        self.assertEqual(made("", "new"), "# A\ntext\n\n## B\nof b\n\n### C\nof c\nnew\n## D\nby hand\n")
+
+    def test_the_page_says_nothing_of_what_was_not_measured(self):
+        text = page(of(build("abacus", 10**6, 1.0, cache="default"), build("cgal", 10**6, 2.0)))
+        self.assertIn("| triangulation of 1 M uniform points | CGAL, in memory | 0.500 | 0.500 |", text)
+        for word in "not measured", "missed", "wanted", "## Threads", "## Beside a GPU", "<!--", "\n\n\n":
+            self.assertNotIn(word, text.replace("Not measured", "not measured"))
+
     def test_numbers(self):
         self.assertEqual([document.number(x) for x in (None, 0, 0.01234, 1.5, 99.96, 123.4, 1234567)],
                          ["–", "0", "0.0123", "1.50", "100", "123", "1,234,567"])
@@ -194,11 +310,12 @@ class Documents(unittest.TestCase):
             self.assertIn(b"<svg", one.read_bytes())
 
     def test_the_page_is_what_the_results_say(self):
-        page = ROOT / "docs/benchmarks.md"
+        text = (ROOT / "docs/benchmarks.md").read_text()
         with tempfile.TemporaryDirectory() as name:
             pictures = pathlib.Path(name) / "benchmarks"
             found = results.Results.read(ROOT / "docs/benchmarks/results.json")
-            self.assertEqual(Report(found, pictures).fill(page.read_text()), page.read_text())
+            self.assertEqual(Report(found, pictures).fill(TEMPLATE.read_text()), text,
+                             "scripts/bench.sh report makes it anew, of bench/suite/page.md.in")
             for picture in pictures.glob("*.svg"):
                 self.assertEqual(picture.read_bytes(), (ROOT / "docs/benchmarks" / picture.name).read_bytes(),
                                  f"{picture.name}: scripts/bench.sh report makes it anew")
