@@ -37,8 +37,8 @@ template <int D> void Gathering<D>::begin(User &user, std::uint64_t points, std:
     const std::size_t bytes = std::max(work_.cache_bytes / gathered_share, least_gathered);
     std::uint64_t room = std::max<std::uint64_t>(1, bytes / gathered_bytes(1));
     // Of several batches the next one is gathered while threads insert one.
-    gathers_ahead_ = !user.removes() && points > room;
-    if (gathers_ahead_) room = std::max<std::uint64_t>(1, room / 2);
+    gathers_ahead_ = !user.removes() && points > room && room / 2 >= worth_sharing<D>;
+    if (gathers_ahead_) room /= 2;
     const std::uint64_t parts = std::max<std::uint64_t>(1, (points + room - 1) / room);
     most_gathered_ =
         std::max((points + parts - 1) / parts, std::min<std::uint64_t>(room, worth_sharing<D>));

@@ -64,6 +64,9 @@ public:
     };
 
     explicit Gathering(Workspace<D> &work);
+    Gathering(const Gathering &) = delete;
+    Gathering &operator=(const Gathering &) = delete;
+    ~Gathering() { stop(); }
 
     /// About `points` points come, and `words` words of each are used. The user gets them until
     /// the next begin().
@@ -78,6 +81,7 @@ public:
     /// After a failure: stops threads that are at work.
     void stop() noexcept {
         if (crew_) crew_->stop();
+        pass_.reset(); // its results are in the crew's memory
     }
     /// If threads are at work: gives them what they ask for now.
     void meanwhile() {
@@ -120,12 +124,12 @@ private:
     Batch left_;               ///< what the threads have left to the session's thread
     std::optional<Cuts> cuts_; ///< of the points being inserted, or removed
     const Removing *how_ = nullptr;
+    std::optional<Crew> crew_;           ///< from the first pass on
     std::optional<Pass<D>> pass_;        ///< while threads are at work
     std::size_t most_gathered_ = 0;      ///< points
     bool gathers_ahead_ = false;         ///< while threads are at work
     std::uint64_t done_ = 0, to_do_ = 0; ///< gathered points, for reports
     std::chrono::steady_clock::time_point reported_{};
-    std::optional<Crew> crew_; ///< the last member: the first to go
 };
 
 extern template class Gathering<2>;
