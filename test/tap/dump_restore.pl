@@ -241,7 +241,7 @@ attribute_works('in_latin1');
 $node->safe_psql('in_latin1', q{DELETE FROM peaks WHERE id < 10});
 attribute_works('in_latin1');
 ($status, $out, $err) = $node->psql('in_latin1', q{SELECT abacus_create('long', 2, ARRAY[repeat(U&'\00f6', 32)])});
-like($err, qr/the name of an attribute is too long/, 'a name that is too long in UTF-8');
+like($err, qr/of an attribute or a label is too long/, 'a name that is too long in UTF-8');
 is($node->safe_psql('in_latin1', q{SELECT abacus_create('fits', 2, ARRAY[repeat(U&'\00f6', 31)])}), 'fits', 'one that is not');
 is($node->safe_psql('in_latin1', q{SELECT abacus_create('many', 2, (SELECT array_agg(U&'\00f6' || i) FROM generate_series(1, 300) i))}), 'many', '300 of them');
 $node->command_ok([ 'pg_dump', '-Fc', '-d', $node->connstr('in_latin1'), '-f', "$folder/latin1" ], 'dumped in LATIN1');

@@ -197,7 +197,11 @@ limit_geometry(Limits *limits, const Condition *condition, Datum geometry, doubl
 						  limits->srid)
 				 : errmsg("the geometry has SRID %d, but the geometries of the foreign table have SRID %d",
 						  srid, limits->srid),
-				 errhint("Transform the geometry. If the SRID of the mesh has been changed, publish the mesh again.")));
+				 srid == 0
+				 ? errhint("Give the geometry its SRID with ST_SetSRID(). If the SRID of the mesh has been changed, "
+						   "publish the mesh again.")
+				 : errhint("Transform the geometry with ST_Transform(). If the SRID of the mesh has been changed, "
+						   "publish the mesh again.")));
 	if (!(distance >= 0))		/* PostGIS reports what is wrong with it */
 		return;
 	switch (place)

@@ -131,7 +131,7 @@ to_storage(char *name)
 	if (strlen(converted) >= ABACUS_NAME_BYTES)
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_NAME),
-				 errmsg("the name of an attribute is too long"),
+				 errmsg("the name \"%s\" of an attribute or a label is too long", name),
 				 errdetail("A name has at most %d bytes, both in UTF-8 and in %s.",
 						   ABACUS_NAME_BYTES - 1, GetDatabaseEncodingName())));
 	if (converted != name)
