@@ -42,11 +42,21 @@ unit_tests() {
 }
 
 # Regression tests, and isolation tests: regression_tests [TEST...], isolation_tests [TEST...]; all without
-# arguments. They run one after the other: their output depends on everything that the server does (progress,
-# freed space). So suites run in parallel, in servers of their own, but not these tests.
+# arguments. Regression tests run in parallel, each in a database of its own (in_own_database), but for some whose
+# output depends on everything that the server does (progress, freed space), or names the database.
+export ABACUS_TESTS_ALONE="build load maintenance parallel privileges stats"
 regression_tests() {
-    if ((!$#)); then set -- "$(names_of .sql < <(ls sql/*.sql))"; fi
-    "${extension_make[@]}" installcheck REGRESS="$*" ISOLATION= && return
+    local schedule=$PWD/build/extension/schedule name together=() alone=()
+    if ((!$#)); then set -- $(names_of .sql < <(ls sql/*.sql)); fi
+    for name; do
+        if [[ " $ABACUS_TESTS_ALONE " == *" $name "* ]]; then alone+=("$name"); else together+=("$name"); fi
+    done
+    {
+        if ((${#together[@]})); then echo "test: ${together[*]}"; fi
+        if ((${#alone[@]})); then printf 'test: %s\n' "${alone[@]}"; fi
+    } >"$schedule"
+    "${extension_make[@]}" installcheck ISOLATION= REGRESS="--schedule=$schedule --launcher=$PWD/scripts/in_own_database \
+        --max-connections=$ABACUS_JOBS" && return
     cat build/extension/regression.diffs
     return 1
 }

@@ -30,15 +30,16 @@ DistributorThreads<D>::DistributorThreads(const Host &host, Distributor<D> &dist
 // ---- The session's thread ---------------------------------------------------------------
 
 template <int D> template <class IsReady> void DistributorThreads<D>::wait(IsReady is_ready) {
-    for (bool ready = false; !ready;) {
+    for (bool ready = false, failed = false; !ready; empty_outbox()) {
         {
             std::unique_lock guard(lock_);
             for_session_.wait_for(guard, longest_wait,
-                                  [&] { return is_ready() || written_ < sent_; });
+                                  [&] { return is_ready() || written_ < sent_ || gives_up_; });
             ready = is_ready();
+            failed = gives_up_;
         }
         host_.poll();
-        empty_outbox();
+        if (failed) crew_.finish(); // throws what a thread has thrown
     }
 }
 

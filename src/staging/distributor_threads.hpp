@@ -80,7 +80,7 @@ private:
     void bring();
     /// Writes what is in the outbox.
     void empty_outbox();
-    /// Empties the outbox until is_ready().
+    /// Empties the outbox until is_ready(). Throws what a thread has thrown.
     template <class IsReady> void wait(IsReady is_ready);
 
     const Host &host_;
