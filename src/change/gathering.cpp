@@ -96,7 +96,7 @@ template <int D> bool Gathering<D>::is_worth_sharing() const {
     if (user_->removes()) return true;
     for (std::size_t i = 0; i < looked_at; ++i)
         if (!Rounds<D>::is_promoted(record_point<D>(gathered_.record(i)))) return true;
-    return n >= most_gathered_ / 2;
+    return n >= (gathers_ahead_ ? most_gathered_ : most_gathered_ / 2);
 }
 
 template <int D> Cuts Gathering<D>::cuts_for_threads() const {
