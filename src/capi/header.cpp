@@ -21,9 +21,9 @@ namespace {
 /// A header begins with the bytes "ABACUS" and the format of the mesh, which covers the header and
 /// all its pages. The number is raised when any of them changes. The format alone says whether
 /// vertices have their attributes in simplex pages or apart, unless there are labels or markers,
-/// vertices that share their places, or names in rows of their own.
+/// vertices that share their places, names in rows of their own, or lines.
 constexpr std::uint64_t name = 0x535543414241, format = 3, format_apart = 4, format_labelled = 5,
-                        format_extended = 6;
+                        format_extended = 6, format_constrained = 7;
 constexpr int name_bits = 48;
 /// The header of an octree begins with the bytes "OCTREE" and a format of its own.
 constexpr std::uint64_t octree_name = 0x454552544f43ull, octree_format = 1;
@@ -144,8 +144,8 @@ void check_counts(const abacus_facts &facts) {
         census.serials >= count_limit || census.duplicates > census.serials ||
         (census.vertices == 0 && census.duplicates > 0))
         throw_corrupted("The header's counts of points contradict each other.");
-    if (facts.standing > ABACUS_NOT_CONVEX ||
-        (facts.standing != ABACUS_DELAUNAY &&
+    if (facts.standing > ABACUS_CONSTRAINED ||
+        (abacus_is_own(facts.standing) == 0 &&
          (census.simplices == 0 || census.staged != census.vertices ||
           census.inserted != census.vertices || census.serials > 0)))
         throw_corrupted("The header's mark of a mesh that is not Delaunay is not valid.");
@@ -220,7 +220,7 @@ template <class Facts, class Visit> void visit_label_fields(Facts &facts, Visit 
 
 /// Whether the facts need the latest format.
 bool is_extended(const abacus_facts &facts) {
-    return facts.census.split > 0 || is_wide(facts.columns);
+    return facts.census.split > 0 || is_wide(facts.columns) || facts.standing == ABACUS_CONSTRAINED;
 }
 
 void check_labels(const abacus_facts &facts) {
@@ -238,18 +238,35 @@ void check_labels(const abacus_facts &facts) {
 void check_split(const abacus_facts &facts) {
     const abacus_census &census = facts.census;
     if (census.split > 0 && (census.split < 2 || census.split > census.vertices ||
-                             facts.standing == ABACUS_DELAUNAY || facts.columns.apart != 0))
+                             abacus_is_own(facts.standing) != 0 || facts.columns.apart != 0))
         throw_corrupted("The header's count of vertices that share their places is not valid.");
 }
 
-/// Labels of simplices, markers of facets, vertices that share their places; then names.
-void read_labels(HeaderReader &read, bool extended, abacus_header &header) {
+/// Lines of a constrained mesh, in the header since format 7.
+void check_lines(const abacus_facts &facts, bool has_lines) {
+    const abacus_census &census = facts.census;
+    const bool is_constrained = facts.standing == ABACUS_CONSTRAINED;
+    if (is_constrained != has_lines || is_constrained != (census.lines > 0) ||
+        census.lines >= count_limit || census.lines_wait > census.lines || census.lines_wait > 1 ||
+        (is_constrained &&
+         (facts.form.dimension != 2 || (census.vertices == 0 && census.lines_wait == 0))))
+        throw_corrupted("The header's count of lines is not valid.");
+}
+
+/// Labels of simplices, markers of facets, vertices that share their places, lines; then names.
+void read_labels(HeaderReader &read, std::uint64_t found, abacus_header &header) {
+    const bool extended = found >= format_extended, has_lines = found >= format_constrained;
     abacus_facts &facts = header.facts;
     visit_label_fields(facts, read);
     if (extended) read(facts.census.split);
+    if (has_lines) {
+        read(facts.census.lines);
+        read(facts.census.lines_wait);
+    }
     if (facts.form.srid > ABACUS_MAX_SRID) throw_corrupted("The header's SRID is out of range.");
     check_labels(facts);
     check_split(facts);
+    check_lines(facts, has_lines);
     if (is_extended(facts) != extended || !(extended || is_labelled(facts)))
         throw_corrupted("The header's format does not fit its contents.");
     if (is_wide(facts.columns))
@@ -281,6 +298,7 @@ void check_octree_format(std::uint64_t found) {
 }
 
 std::uint64_t format_of(const abacus_facts &facts) {
+    if (facts.standing == ABACUS_CONSTRAINED) return format_constrained;
     if (is_extended(facts)) return format_extended;
     if (is_labelled(facts)) return format_labelled;
     return facts.columns.apart != 0 ? format_apart : format;
@@ -292,11 +310,11 @@ bool has_name(std::uint64_t found, std::uint64_t name) {
 
 void check_format(std::uint64_t found) {
     if (!has_name(found, name)) throw_corrupted("The row with the lowest key is not a header.");
-    if (found >> name_bits < format || found >> name_bits > format_extended)
+    if (found >> name_bits < format || found >> name_bits > format_constrained)
         throw Error(ABACUS_ERROR_STATE,
                     "mesh is stored in format " + std::to_string(found >> name_bits) +
                         ", but this version of Abacus reads formats " + std::to_string(format) +
-                        " to " + std::to_string(format_extended),
+                        " to " + std::to_string(format_constrained),
                     {},
                     "Read its points with the version that wrote it (abacus_vertices), and build "
                     "it anew.");
@@ -319,7 +337,7 @@ void decode(const unsigned char *bytes, std::size_t size, abacus_header &header)
     }
     if (facts.form.dimension < 2 || facts.form.dimension > ABACUS_MAX_DIMENSION)
         throw_corrupted("The header's dimension is " + std::to_string(facts.form.dimension) + ".");
-    const bool extended = !is_octree && found >> name_bits == format_extended,
+    const bool extended = !is_octree && found >> name_bits >= format_extended,
                labelled = !is_octree && found >> name_bits >= format_labelled;
     if (facts.columns.attributes > (extended ? ABACUS_MAX_ATTRIBUTES : ABACUS_MAX_PAGE_ATTRIBUTES))
         throw_corrupted("The header has " + std::to_string(facts.columns.attributes) +
@@ -337,9 +355,10 @@ void decode(const unsigned char *bytes, std::size_t size, abacus_header &header)
     std::memcpy(&header.counters, counters, sizeof counters);
     if (!extended) read_names(read, 0, facts.columns.attributes, header);
     if (labelled)
-        read_labels(read, extended, header);
+        read_labels(read, found >> name_bits, header);
     else
         read_srid(read, facts.form);
+    if (!extended) check_lines(facts, false);
     if (facts.columns.apart != 0 && facts.columns.attributes == 0)
         throw_corrupted("The header has no attributes, but says that they are in separate pages.");
 }
@@ -383,6 +402,10 @@ size_t abacus_header_encode(const abacus_header *header, unsigned char *bytes) {
     if (extended || is_labelled(facts)) {
         visit_label_fields(facts, write);
         if (extended) write(facts.census.split);
+        if (facts.standing == ABACUS_CONSTRAINED) {
+            write(facts.census.lines);
+            write(facts.census.lines_wait);
+        }
         if (!is_wide(facts.columns))
             write.names(*header, extended ? 0 : facts.columns.attributes, names_of(facts.columns));
     } else if (facts.form.srid != 0) {

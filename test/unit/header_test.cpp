@@ -510,7 +510,7 @@ TEST(Header, OfAMeshThatIsNotDelaunay) {
     };
     for (const std::uint32_t why : {ABACUS_NOT_DELAUNAY, ABACUS_WEAKLY_DELAUNAY, ABACUS_NOT_CONVEX})
         EXPECT_TRUE(taken([&](abacus_header &h) { h.facts.standing = why; }));
-    EXPECT_FALSE(taken([](abacus_header &h) { h.facts.standing = ABACUS_NOT_CONVEX + 1; }));
+    EXPECT_FALSE(taken([](abacus_header &h) { h.facts.standing = ABACUS_CONSTRAINED + 1; }));
     EXPECT_FALSE(taken([](abacus_header &h) { h.facts.census.inserted = 0; }));
     EXPECT_FALSE(taken([](abacus_header &h) { ++h.facts.census.staged; }));
     EXPECT_FALSE(taken([](abacus_header &h) { h.facts.census.serials = 1; }));

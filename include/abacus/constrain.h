@@ -1,0 +1,90 @@
+/*
+ * constrain.h: fixed edges of a mesh of dimension 2, and the lines that they come from.
+ *
+ * A mesh with lines is the constrained Delaunay triangulation of its points and lines (Lee and Lin
+ * 1986; Chew 1989): each segment of a line is an edge, or a chain of edges where vertices lie exactly
+ * on it, and each edge that is not fixed so passes the in-circle test, under the symbolic
+ * perturbation. So the mesh is a function of points and lines. The host keeps the lines; the mesh
+ * has a mark for each fixed edge.
+ */
+#ifndef ABACUS_ABACUS_CONSTRAIN_H
+#define ABACUS_ABACUS_CONSTRAIN_H
+
+#include "abacus/build.h"
+#include "abacus/locate.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- Segments that are fixed or freed ------------------------------------------- */
+
+typedef struct abacus_segments abacus_segments;
+
+/* Opens a collection of segments, sorted within `memory` bytes and beyond it in spools. */
+ABACUS_API abacus_status abacus_segments_open(const abacus_host *host, const abacus_facts *facts,
+											  size_t memory, abacus_segments **segments,
+											  abacus_error *error);
+/* Adds `count` segments of 4 doubles each: the places of both ends, x and y. */
+ABACUS_API abacus_status abacus_segments_add(abacus_segments *segments, const double *ends,
+											 size_t count, abacus_error *error);
+ABACUS_API void abacus_segments_close(abacus_segments *segments);
+
+/* ---- Lines, as the host keeps them ------------------------------------------------ */
+
+/* A segment of a line that ends at a certain place. */
+typedef struct abacus_segment_end
+{
+	int64_t line;
+	double other[2]; /* the place of its other end */
+} abacus_segment_end;
+
+/*
+ * Finds the segments that end at a place: all of all lines, two for each position of a line but its
+ * first and last, which have one. The array belongs to the host, until the next call.
+ */
+typedef abacus_host_status (*abacus_segments_at)(void *context, const double place[2],
+												 const abacus_segment_end **ends, size_t *count);
+
+/*
+ * The lines of the mesh. To be called before any change of a mesh with lines that frees segments or
+ * deletes points.
+ */
+ABACUS_API abacus_status abacus_build_lines(abacus_build *build, abacus_segments_at at,
+											void *context, abacus_error *error);
+
+/* ---- Changes ------------------------------------------------------------------------ */
+
+/*
+ * fix: makes each segment an edge of the mesh, or a chain of edges, that is fixed. Its ends must be
+ * vertices: ABACUS_ERROR (argument) if one is not, or if a segment crosses another one, or a fixed
+ * edge, elsewhere than in a vertex. The mesh must have simplices; points that wait are inserted
+ * before.
+ */
+ABACUS_API abacus_status abacus_build_fix(abacus_build *build, abacus_segments *segments,
+										  abacus_header *header, abacus_error *error);
+/*
+ * unfix: frees the edges of each segment, but for those that are on a segment of a line that the
+ * host still has; so their lines must be gone there.
+ */
+ABACUS_API abacus_status abacus_build_unfix(abacus_build *build, abacus_segments *segments,
+											abacus_header *header, abacus_error *error);
+
+/* ---- Reading --------------------------------------------------------------------------- */
+
+/* Gets an edge on a segment: ids and places of its ends, in the direction of the segment. */
+typedef abacus_host_status (*abacus_edge_report)(void *context, const int64_t ids[2],
+												 const double ends[2][2], int is_fixed);
+/*
+ * Reports the edges of the mesh that make up the segment from a to b, in their order; *is_whole is 0
+ * if the mesh lacks one, where the report ends.
+ */
+ABACUS_API abacus_status abacus_edges_along(abacus_mesh *mesh, const double a[2],
+											const double b[2], abacus_edge_report report,
+											void *context, int *is_whole, abacus_error *error);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif
