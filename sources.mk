@@ -89,11 +89,17 @@ CORE.delaunay += src/delaunay/cavity_2d.cpp
 CORE.delaunay += src/delaunay/cavity_3d.cpp
 CORE.delaunay += src/delaunay/hole.cpp
 CORE.delaunay += src/delaunay/insertion.cpp
+CORE.delaunay += src/delaunay/lines_over.cpp
 CORE.delaunay += src/delaunay/link_mesh.cpp
+CORE.delaunay += src/delaunay/patch.cpp
+CORE.delaunay += src/delaunay/refill.cpp
 CORE.delaunay += src/delaunay/removal.cpp
 CORE.delaunay += src/delaunay/star.cpp
 
+CORE.change += src/constrain/fixing.cpp
+CORE.change += src/constrain/freeing.cpp
 CORE.change += src/change/build.cpp
+CORE.change += src/change/constraining.cpp
 CORE.change += src/change/crowding.cpp
 CORE.change += src/change/deleting.cpp
 CORE.change += src/change/gathering.cpp
@@ -214,6 +220,7 @@ CORE.capi_ask += src/capi/volume.cpp
 CORE.capi_ask += src/capi/voronoi.cpp
 
 CORE.capi_change += src/capi/build.cpp
+CORE.capi_change += src/capi/constrain.cpp
 CORE.capi_change += src/capi/delaunay_words.cpp
 CORE.capi_change += src/capi/domain.cpp
 CORE.capi_change += src/capi/goose.cpp

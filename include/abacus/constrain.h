@@ -73,14 +73,14 @@ ABACUS_API abacus_status abacus_build_unfix(abacus_build *build, abacus_segments
 /* ---- Reading --------------------------------------------------------------------------- */
 
 /* Gets an edge on a segment: ids and places of its ends, in the direction of the segment. */
-typedef abacus_host_status (*abacus_edge_report)(void *context, const int64_t ids[2],
+typedef abacus_host_status (*abacus_along_report)(void *context, const int64_t ids[2],
 												 const double ends[2][2], int is_fixed);
 /*
  * Reports the edges of the mesh that make up the segment from a to b, in their order; *is_whole is 0
  * if the mesh lacks one, where the report ends.
  */
 ABACUS_API abacus_status abacus_edges_along(abacus_mesh *mesh, const double a[2],
-											const double b[2], abacus_edge_report report,
+											const double b[2], abacus_along_report report,
 											void *context, int *is_whole, abacus_error *error);
 
 #ifdef __cplusplus

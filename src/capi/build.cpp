@@ -1,38 +1,13 @@
 // Building behind the C interface.
-#include "change/build.hpp"
+#include "capi/build.hpp"
 
-#include "capi/dimension.hpp"
 #include "capi/editable.hpp"
-#include "capi/guard.hpp"
 #include "capi/handle.hpp"
 #include "capi/stage.hpp"
 #include "query/pages/describe.hpp"
 
 #include <abacus/build.h>
 #include <cstring>
-
-struct abacus_build {
-    abacus_build(const abacus_host *table, const abacus_facts &facts, std::size_t cache_bytes)
-        : stored(abacus::Host(*table)), host(*table, watch(facts)), alone(*table),
-          build(host, facts, cache_bytes, watch(facts)) {
-        alone.threads = 1;
-        alone.tiny_intervals = 0;
-    }
-
-    /// The stored pages, if simplices have labels or markers that change with them.
-    abacus::StoredPages *watch(const abacus_facts &facts) {
-        return facts.census.labelled > 0 || facts.census.marked > 0 ? &stored : nullptr;
-    }
-
-    abacus::StoredPages stored;
-    const abacus::Host host;
-    // For sorts with one thread (simplex_changes.hpp).
-    abacus_host alone;
-    std::optional<abacus::Host> lone_host;
-    abacus::ByDimension<abacus::Build> build;
-    // Destroyed before the build: what a thread has handed over is in the memory of its crew.
-    std::optional<abacus::ByDimension<abacus::SimplexChanges>> changes;
-};
 
 abacus_status abacus_build_open(const abacus_host *host, const abacus_facts *facts,
                                 size_t cache_bytes, abacus_build **build, abacus_error *error) {
@@ -45,18 +20,6 @@ abacus_status abacus_build_open(const abacus_host *host, const abacus_facts *fac
 
 namespace {
 
-/// Runs change(build, header) on the build of either dimension.
-template <class Change>
-abacus_status run(abacus_build *build, abacus_header *header, abacus_error *error,
-                  Change change) noexcept {
-    return abacus::guard(error, [&] {
-        abacus_header changed = *header; // the caller's stays as it is if the change fails
-        build->build.visit([&](auto &opened) { change(opened, changed); });
-        *header = changed;
-        return ABACUS_OK;
-    });
-}
-
 template <int D> abacus::Stage<D> &stage_for(const abacus::Build<D> &, abacus_stage *stage) {
     return stage->stage.get<D>();
 }
@@ -65,8 +28,9 @@ template <int D> abacus::Stage<D> &stage_for(const abacus::Build<D> &, abacus_st
 
 abacus_status abacus_build_run(abacus_build *build, uint64_t limit, abacus_header *header,
                                abacus_error *error) {
-    return run(build, header, error,
-               [&](auto &opened, abacus_header &changed) { opened.run(limit, changed); });
+    return abacus::run_change(build, header, error, [&](auto &opened, abacus_header &changed) {
+        opened.run(limit, changed);
+    });
 }
 
 abacus_status abacus_build_hold(abacus_build *build, abacus_error *error) {
@@ -77,21 +41,22 @@ abacus_status abacus_build_hold(abacus_build *build, abacus_error *error) {
 }
 
 abacus_status abacus_build_settle(abacus_build *build, abacus_header *header, abacus_error *error) {
-    return run(build, header, error,
-               [&](auto &opened, abacus_header &changed) { opened.settle(changed); });
+    return abacus::run_change(build, header, error, [&](auto &opened, abacus_header &changed) {
+        opened.settle(changed);
+    });
 }
 
 abacus_status abacus_build_insert(abacus_build *build, abacus_stage *stage,
                                   abacus_on_duplicate on_duplicate, abacus_header *header,
                                   abacus_error *error) {
-    return run(build, header, error, [&](auto &opened, abacus_header &changed) {
+    return abacus::run_change(build, header, error, [&](auto &opened, abacus_header &changed) {
         opened.insert(stage_for(opened, stage), on_duplicate, changed);
     });
 }
 
 abacus_status abacus_build_delete(abacus_build *build, abacus_stage *stage, int exactly,
                                   abacus_header *header, uint64_t *deleted, abacus_error *error) {
-    return run(build, header, error, [&](auto &opened, abacus_header &changed) {
+    return abacus::run_change(build, header, error, [&](auto &opened, abacus_header &changed) {
         *deleted = opened.remove(stage_for(opened, stage), exactly != 0, changed);
     });
 }
@@ -100,7 +65,7 @@ abacus_status abacus_build_update(abacus_build *build, abacus_stage *stage,
                                   const uint32_t *attributes, size_t count, int exactly,
                                   abacus_header *header, uint64_t *updated,
                                   abacus_named_place *missing, abacus_error *error) {
-    return run(build, header, error, [&](auto &opened, abacus_header &changed) {
+    return abacus::run_change(build, header, error, [&](auto &opened, abacus_header &changed) {
         *updated = opened.update(stage_for(opened, stage), {attributes, count}, exactly != 0,
                                  changed, *missing);
     });
@@ -109,7 +74,7 @@ abacus_status abacus_build_update(abacus_build *build, abacus_stage *stage,
 abacus_status abacus_build_change_attributes(abacus_build *build, const uint32_t *source,
                                              size_t count, size_t memory, abacus_header *header,
                                              abacus_error *error) {
-    return run(build, header, error, [&](auto &opened, abacus_header &changed) {
+    return abacus::run_change(build, header, error, [&](auto &opened, abacus_header &changed) {
         for (std::size_t i = 0; i < count; ++i)
             if (source[i] == abacus::no_attribute) {
                 std::memset(changed.names[i], 0, ABACUS_NAME_BYTES);
@@ -128,13 +93,14 @@ abacus_status abacus_build_change_attributes(abacus_build *build, const uint32_t
 
 abacus_status abacus_build_clear(abacus_build *build, abacus_header *header, uint64_t *deleted,
                                  abacus_error *error) {
-    return run(build, header, error,
-               [&](auto &opened, abacus_header &changed) { *deleted = opened.clear(changed); });
+    return abacus::run_change(build, header, error, [&](auto &opened, abacus_header &changed) {
+        *deleted = opened.clear(changed);
+    });
 }
 
 abacus_status abacus_build_rekey(abacus_build *build, size_t memory, abacus_header *header,
                                  int *done, abacus_error *error) {
-    return run(build, header, error, [&](auto &opened, abacus_header &changed) {
+    return abacus::run_change(build, header, error, [&](auto &opened, abacus_header &changed) {
         *done = opened.rekey(memory, changed);
     });
 }

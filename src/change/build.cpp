@@ -142,6 +142,22 @@ template <int D> std::uint64_t Build<D>::clear(abacus_header &header) {
     return points;
 }
 
+template <int D> void Build<D>::fix(Segments &segments, abacus_header &header) {
+    change(header, [&] {
+        inserting_.insert_waiting(0);
+        header.facts.standing = ABACUS_CONSTRAINED;
+        header.facts.census.lines_wait = 0;
+        return constraining_.fix(segments);
+    });
+}
+
+template <int D> void Build<D>::unfix(Segments &segments, abacus_header &header) {
+    change(header, [&] {
+        inserting_.insert_waiting(0);
+        return constraining_.unfix(segments);
+    });
+}
+
 template <int D> bool Build<D>::rekey(std::size_t memory, abacus_header &header) {
     work_.facts = &header.facts;
     if (!rekeying_.has_outgrown_domain(0) && !looks_crowded<D>(work_.host, header.facts))

@@ -7,11 +7,13 @@
 //                 (attribute_change.hpp)
 //   rekeying      another domain for a mesh that has outgrown its own (rekeying.hpp)
 //   gathering     points for several threads (gathering.hpp)
+//   constraining  edges fixed and freed along lines (constraining.hpp)
 //   label upkeep  labels and markers that follow the simplices (label_upkeep.hpp)
 //
 // Each change ends with all pages written and the header brought up to date.
 #pragma once
 
+#include "change/constraining.hpp"
 #include "change/deleting.hpp"
 #include "change/inserting.hpp"
 #include "change/label_upkeep.hpp"
@@ -35,10 +37,12 @@ public:
           StoredPages *stored = nullptr)
         : work_(host, facts, cache_bytes), labels_(work_, stored), gathering_(work_),
           inserting_(work_, gathering_), deleting_(work_, gathering_, inserting_),
-          rekeying_(work_, inserting_, labels_) {}
+          rekeying_(work_, inserting_, labels_), constraining_(work_) {}
 
     /// From now on logs the simplices that are created and removed.
     void log_to(SimplexChanges<D> &changes) { work_.log_to(changes); }
+    /// The lines of a constrained mesh, for changes that delete points or free edges.
+    void set_lines(LineSource *lines) { work_.set_lines(lines); }
     /// Until settle() labels and markers stay with the simplices of now: all changes until then
     /// count as one.
     void hold() { labels_.hold(); }
@@ -62,6 +66,10 @@ public:
     /// value (no_attribute). `memory` is for sorting. No other change may follow.
     void change_attributes(std::span<const std::uint32_t> source, std::size_t memory,
                            abacus_header &header);
+    /// Inserts what waits, then fixes the edges of segments. From then on the mesh is constrained.
+    void fix(Segments &segments, abacus_header &header);
+    /// Inserts what waits, then frees the edges of segments over which the host has no line.
+    void unfix(Segments &segments, abacus_header &header);
     /// Gives a mesh whose domain does not fit its points another one, with `memory` bytes for
     /// sorting; false if there is no better one.
     bool rekey(std::size_t memory, abacus_header &header);
@@ -77,6 +85,7 @@ private:
     Inserting<D> inserting_;
     Deleting<D> deleting_;
     Rekeying<D> rekeying_;
+    Constraining<D> constraining_;
 };
 
 } // namespace abacus

@@ -19,6 +19,9 @@ template <int D> std::uint64_t Deleting<D>::remove(Stage<D> &stage, bool exactly
 
 template <int D> std::uint64_t Deleting<D>::clear() {
     abacus_census &census = work_.facts->census;
+    if (census.lines > 0)
+        throw Error(ABACUS_ERROR_STATE, "points cannot all be removed: lines of the mesh name some",
+                    {}, "Remove the lines with abacus_unconstrain() first.");
     const std::uint64_t points =
         census.vertices + census.duplicates + (census.staged - census.inserted);
     work_.repeated->forget();

@@ -39,8 +39,11 @@ private:
     /// Moves the repeated points to vertex pages.
     void make_repeated_wait(VertexPageWriter &pages);
     /// From now on vertices that are to be removed stay where they are, until the rest is
-    /// triangulated.
-    void put_off_removals(std::size_t memory) { rest_.emplace(work_.host, *work_.facts, memory); }
+    /// triangulated; not in a constrained mesh, where edges would have to be fixed again.
+    void put_off_removals(std::size_t memory) {
+        if (work_.facts->standing != ABACUS_CONSTRAINED)
+            rest_.emplace(work_.host, *work_.facts, memory);
+    }
     void triangulate_rest();
 
     Workspace<D> &work_;

@@ -29,6 +29,7 @@ Interval<D>::Interval(const Host &host, const abacus_facts &facts, std::uint64_t
       mesh_(host, cache_, static_cast<std::int64_t>(facts.census.simplices),
             static_cast<std::int64_t>(facts.census.ghosts)),
       insertion_(mesh_), removal_(mesh_, attributes_apart()) {
+    mesh_.is_constrained = facts.standing == ABACUS_CONSTRAINED;
     cache_.keep_within(first, last);
     if (changes != nullptr) mesh_.log = &log_.emplace(*changes, host).log();
 }

@@ -27,7 +27,14 @@ Workspace<D>::Workspace(const Host &the_host, const abacus_facts &the_facts, std
 
 template <int D> void Workspace<D>::make_core(const abacus_facts &of) {
     core.emplace(host, of, budget, apart ? &*apart : nullptr);
+    core->mesh.is_constrained = of.standing == ABACUS_CONSTRAINED;
+    core->removal.set_lines(lines);
     if (changes != nullptr) core->mesh.log = &changes->log();
+}
+
+template <int D> void Workspace<D>::set_lines(LineSource *source) {
+    lines = source;
+    core->removal.set_lines(source);
 }
 
 template <int D> void Workspace<D>::log_to(SimplexChanges<D> &log) {
@@ -103,6 +110,7 @@ template <int D> void Workspace<D>::forget_simplices() {
     }
     facts->census.vertices = facts->census.duplicates = facts->census.simplices =
         facts->census.ghosts = 0;
+    facts->census.lines_wait = facts->census.lines > 0 ? 1 : 0;
     forget_cache();
 }
 

@@ -56,6 +56,7 @@ template <int D> struct Workspace {
 
     /// From now on logs the simplices that are created and removed.
     void log_to(SimplexChanges<D> &log);
+    void set_lines(LineSource *source);
     /// Makes a new vertex.
     VertexIndex create(const std::uint64_t *record);
     /// Makes the first simplex.
@@ -94,6 +95,7 @@ template <int D> struct Workspace {
     std::optional<Core> core;                  ///< always there; optional, to be replaced
     std::optional<RepeatedPoints<D>> repeated; ///< as well
     SimplexChanges<D> *changes = nullptr;      ///< the log, if there is one
+    LineSource *lines = nullptr;               ///< of a constrained mesh, if they are known
     abacus_facts *facts = nullptr;             ///< of the current change
 
 private:

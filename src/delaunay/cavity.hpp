@@ -11,6 +11,11 @@
 // triangle once. It lists the rim as a cycle: an edge ends where the next one begins. Nothing needs
 // to be looked up: the new triangle on an edge meets the one on the next edge.
 //
+// If the mesh is constrained, the cavity ends at fixed edges, and the search has to begin at the
+// triangle that contains the point. What lies beyond a fixed edge is loaded all the same, since its
+// link changes. Only an edge on which the point lies is crossed: it is split, and both halves are
+// fixed. The rest of the rim keeps what is fixed.
+//
 // In space the search may return to a tetrahedron, so it marks what it has seen, and numbers the
 // corners. It goes breadth first, and tests the tetrahedra beyond several facets together. No
 // processor can predict the outcome of a test, which is about a coin's toss. A branch on it would
@@ -96,8 +101,14 @@ private:
         Link outer;
     };
 
+    template <bool is_constrained> void search(const Point<2> &p, Handle first);
     /// Tests the triangle beyond an edge whose begin is known.
+    template <bool is_constrained>
     void look_beyond(Edge &edge, Link inner, const SeenPoint<2> &end, const Point<2> &p);
+    /// Whether p lies on a fixed edge, which is to be split then.
+    [[gnu::noinline]] bool splits(Link edge, const Point<2> &p);
+    /// Fixes the edges of the new triangles.
+    void fix_edges();
     /// The test where in_circle() is uncertain: above all for ghosts, whose point at infinity has
     /// no coordinates. It is a separate function to keep the loop around the test small.
     [[gnu::noinline]] bool is_exactly_inside(Handle h, const Point<2> &p) const;
@@ -111,6 +122,7 @@ private:
     Arena<Edge> stack_;
     Arena<RimEdge> rim_; // with the first one repeated at the end, while it is filled
     Arena<Handle> created_;
+    std::array<VertexIndex, 2> split_; // the ends of the fixed edge that is split, or none
 };
 
 template <> class Cavity<3> : CavityInside<3> {

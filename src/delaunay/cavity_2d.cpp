@@ -9,6 +9,14 @@ Cavity<2>::Cavity(Delaunay<2> &mesh)
     : CavityInside(mesh), stack_(cache_.host()), rim_(cache_.host()), created_(cache_.host()) {}
 
 void Cavity<2>::find(const Point<2> &p, Handle first) {
+    if (mesh_.is_constrained)
+        search<true>(p, first);
+    else
+        search<false>(p, first);
+}
+
+template <bool is_constrained> void Cavity<2>::search(const Point<2> &p, Handle first) {
+    split_.fill(free_mark);
     inside_.clear();
     rim_.clear();
     add(first);
@@ -22,7 +30,7 @@ void Cavity<2>::find(const Point<2> &p, Handle first) {
         top->cross = i == 3 ? 0 : cross(top->begin, top[-1].begin);
     }
     for (int i = 0; i < 3; ++i)
-        look_beyond(bottom[3 - i], make_link(first, i), bottom[2 - i].begin, p);
+        look_beyond<is_constrained>(bottom[3 - i], make_link(first, i), bottom[2 - i].begin, p);
     --top;
     while (top != stack_.data()) {
         const Link outer = top->outer;
@@ -45,12 +53,13 @@ void Cavity<2>::find(const Point<2> &p, Handle first) {
         top[0].vertex = cache_.simplex(h).vertex[facet];
         // The two calls do not wait for each other, and their results are ready when they are
         // needed.
-        look_beyond(top[1], make_link(h, next), top[0].begin, p);
-        look_beyond(top[0], make_link(h, last), top[-1].begin, p);
+        look_beyond<is_constrained>(top[1], make_link(h, next), top[0].begin, p);
+        look_beyond<is_constrained>(top[0], make_link(h, last), top[-1].begin, p);
         ++top;
     }
 }
 
+template <bool is_constrained>
 inline void Cavity<2>::look_beyond(Edge &edge, Link inner, const SeenPoint<2> &end,
                                    const Point<2> &p) {
     edge.outer = cache_.cross(link_simplex(inner), link_facet(inner));
@@ -60,6 +69,17 @@ inline void Cavity<2>::look_beyond(Edge &edge, Link inner, const SeenPoint<2> &e
     edge.cross_ac = test.cross_ac;
     edge.cross_cb = test.cross_cb;
     edge.is_inside = test.is_sure ? test.is_inside : is_exactly_inside(h, p);
+    if constexpr (is_constrained)
+        if (edge.is_inside && cache_.is_fixed(edge.outer)) edge.is_inside = splits(edge.outer, p);
+}
+
+bool Cavity<2>::splits(Link edge, const Point<2> &p) {
+    const auto &vertex = cache_.simplex(link_simplex(edge)).vertex;
+    const std::array<VertexIndex, 2> ends{vertex[(link_facet(edge) + 1) % 3],
+                                          vertex[(link_facet(edge) + 2) % 3]};
+    if (orientation(cache_.point(ends[0]), cache_.point(ends[1]), p) != 0) return false;
+    split_ = ends;
+    return true;
 }
 
 bool Cavity<2>::is_exactly_inside(Handle h, const Point<2> &p) const {
@@ -92,6 +112,8 @@ void Cavity<2>::fill(VertexIndex v) {
         mesh_.remember(i, h);
         new_ghosts += begin == infinite_vertex || end == infinite_vertex;
     }
+    if (mesh_.is_constrained) [[unlikely]]
+        fix_edges();
     if (new_ghosts > 0) [[unlikely]]
         for (std::size_t i = 0; i < n; ++i) bring_infinity_last(created_[i]);
     mesh_.count(static_cast<std::int64_t>(n - inside_.size()) - (new_ghosts - ghosts),
@@ -99,13 +121,28 @@ void Cavity<2>::fill(VertexIndex v) {
     log_created(created_, n);
 }
 
+void Cavity<2>::fix_edges() {
+    Handle previous = created_[created_.size() - 2];
+    for (std::size_t i = 0; i + 1 < created_.size(); ++i) {
+        const Handle h = created_[i];
+        if (cache_.is_fixed(rim_[i].outer)) cache_.set_fixed(make_link(h, 2), true);
+        if (rim_[i].begin == split_[0] || rim_[i].begin == split_[1]) {
+            cache_.set_fixed(make_link(h, 1), true);
+            cache_.set_fixed(make_link(previous, 0), true);
+        }
+        previous = h;
+    }
+}
+
 void Cavity<2>::bring_infinity_last(Handle h) {
     Simplex<2> s = cache_.simplex(h);
+    const unsigned fixed = cache_.fixed(h);
     for (int i = 0; i < 2; ++i) {
         if (s.vertex[i] != infinite_vertex) continue;
         std::rotate(s.vertex.begin(), s.vertex.begin() + i + 1, s.vertex.end());
         std::rotate(s.link.begin(), s.link.begin() + i + 1, s.link.end());
         cache_.set(h, s);
+        cache_.set_fixed(h, (fixed >> (i + 1) | fixed << (2 - i)) & 7);
         for (int k = 0; k < 3; ++k) cache_.point_at(s.link[k], make_link(h, k));
         return;
     }

@@ -45,6 +45,12 @@ public:
     static constexpr int recent_size = D == 2 ? 8 : 24;
     const std::array<Handle, recent_size> &recent() const { return recent_; }
     void forget() { recent_.fill(no_handle); }
+    /// One of them that is still there, or no_handle.
+    Handle any_recent() const {
+        for (const Handle h : recent_)
+            if (cache_.is_live(h)) return h;
+        return no_handle;
+    }
     /// The n-th simplex that this operation has created.
     void remember(std::size_t n, Handle h) {
         if (n < recent_.size()) recent_[n] = h;
@@ -78,6 +84,9 @@ public:
         return cache_.is_live(h) && !cache_.near(h, cache_.code(cache_.simplex(h)));
     }
 
+    /// For changes that come in any order, so that the curve before them is not finished: a full
+    /// block is cut at its median, not at the change.
+    static constexpr std::uint64_t anywhere = 0;
     /// Ends an operation at a point with this code: simplices go home, the cache is trimmed.
     void finish(std::uint64_t code) {
         if (cache_.settle(code))
@@ -85,6 +94,9 @@ public:
         cache_.trim();
     }
 
+    /// Whether edges may be fixed. Then a simplex in conflict with a point need not belong to its
+    /// cavity, which ends at fixed edges.
+    bool is_constrained = false;
     Marks marks;
     /// The log of created and removed simplices, if there is one.
     SimplexLog<D> *log = nullptr;
@@ -96,5 +108,13 @@ private:
     std::int64_t simplices_;
     std::int64_t ghosts_;
 };
+
+/// A triangle with a vertex at p, and the corner, as a link; `unset` if there is none.
+inline Link vertex_at(Delaunay<2> &mesh, const Point<2> &p) {
+    if (mesh.simplices() == 0) return unset;
+    const Handle h = mesh.locate(p, mesh.cache().domain().code(p), mesh.any_recent());
+    const int corner = mesh.corner_at(h, p);
+    return corner < 0 ? unset : make_link(h, corner);
+}
 
 } // namespace abacus

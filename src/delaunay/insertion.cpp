@@ -10,6 +10,7 @@ template <int D>
 Insertion<D>::Insertion(Delaunay<D> &mesh) : mesh_(mesh), cache_(mesh.cache()), cavity_(mesh) {}
 
 template <int D> Handle Insertion<D>::find_conflict(const Point<D> &p, std::uint64_t code) {
+    if (mesh_.is_constrained) return find_containing(p, code);
     Handle from = no_handle;
     ++cache_.counters.incircle_tests;
     for (const Handle h : mesh_.recent()) {
@@ -25,6 +26,11 @@ template <int D> Handle Insertion<D>::find_conflict(const Point<D> &p, std::uint
         }
     }
     const Handle h = mesh_.locate(p, code, from);
+    return mesh_.corner_at(h, p) < 0 ? h : no_handle;
+}
+
+template <int D> Handle Insertion<D>::find_containing(const Point<D> &p, std::uint64_t code) {
+    const Handle h = mesh_.locate(p, code, mesh_.any_recent());
     return mesh_.corner_at(h, p) < 0 ? h : no_handle;
 }
 

@@ -34,6 +34,8 @@ public:
 private:
     /// A simplex of p's cavity, or no_handle if p is a vertex.
     Handle find_conflict(const Point<D> &p, std::uint64_t code);
+    /// ... the one that contains p, or a ghost beyond whose facet p lies.
+    Handle find_containing(const Point<D> &p, std::uint64_t code);
     /// Finds p's cavity; false if p is a vertex.
     bool find_cavity(const Point<D> &p, std::uint64_t code);
     void fill_cavity(const Point<D> &p, std::uint64_t code, std::int64_t id,

@@ -6,9 +6,6 @@
 namespace abacus {
 
 namespace {
-// Removals come in any order, so the curve before a vertex is not finished. A full block is cut at
-// its median, not at the vertex.
-constexpr std::uint64_t anywhere = 0;
 constexpr Link nowhere = unset;
 } // namespace
 
@@ -53,18 +50,19 @@ template <int D> const double *Removal<D>::attributes_of(VertexIndex v, bool are
 
 template <int D> bool Removal<D>::finds(const Point<D> &p, Leaving *want) {
     const Link corner = find(p, want);
-    mesh_.finish(anywhere);
+    mesh_.finish(mesh_.anywhere);
     return corner != nowhere;
 }
 
 template <int D> Removed Removal<D>::remove(const Point<D> &p, Leaving *want) {
     if (!find_star(p, want)) {
-        mesh_.finish(anywhere);
+        mesh_.finish(mesh_.anywhere);
         return Removed::no_such_vertex;
     }
+    if (fixed_edges() > 0) require_removable();
     if (collapses()) return Removed::collapses;
     take_out();
-    mesh_.finish(anywhere);
+    mesh_.finish(mesh_.anywhere);
     return Removed::removed;
 }
 
@@ -74,12 +72,13 @@ template <int D> std::optional<bool> Removal<D>::remove_within(const Point<D> &p
         found = find_star(p, &want);
     } catch (const Foreign &) {
         star_.give_up();
-        mesh_.finish(anywhere);
+        mesh_.finish(mesh_.anywhere);
         return {};
     }
-    const bool leaves = found && !collapses() && stays_within();
+    // Lines are the session's concern.
+    const bool leaves = found && !collapses() && stays_within() && fixed_edges() == 0;
     if (leaves) take_out();
-    mesh_.finish(anywhere);
+    mesh_.finish(mesh_.anywhere);
     if (found && !leaves) return {};
     return found;
 }
@@ -99,6 +98,16 @@ template <int D> bool Removal<D>::stays_within() const {
     return below <= D;
 }
 
+template <int D> std::size_t Removal<D>::fixed_edges() {
+    if constexpr (D == 2)
+        if (mesh_.is_constrained) return refill_.look_at(star_);
+    return 0;
+}
+
+template <int D> void Removal<D>::require_removable() {
+    if constexpr (D == 2) refill_.require_removable(star_, lines_);
+}
+
 template <int D> void Removal<D>::take_out() {
     const auto ghosts = static_cast<std::int64_t>(star_.ghosts());
     const auto simplices = static_cast<std::int64_t>(star_.simplices().size()) - ghosts;
@@ -107,9 +116,15 @@ template <int D> void Removal<D>::take_out() {
         cache_.destroy(h);
     }
     mesh_.count(-simplices, -ghosts);
-    effort_ += star_.simplices().size() + hole_.fill(star_);
+    effort_ += star_.simplices().size() + fill_hole();
     cache_.destroy_vertex(star_.vertex());
     ++cache_.counters.removals;
+}
+
+template <int D> std::uint64_t Removal<D>::fill_hole() {
+    if constexpr (D == 2)
+        if (mesh_.is_constrained) return refill_.fill(star_);
+    return hole_.fill(star_);
 }
 
 template <int D> std::optional<bool> Removal<D>::offer(const Point<D> &p, Leaving &leaving) {
@@ -120,7 +135,7 @@ template <int D> std::optional<bool> Removal<D>::offer(const Point<D> &p, Leavin
         more = leaving.offer(cache_.vertices().id(v),
                              attributes_of(v, leaving.compares_attributes()), 0);
     }
-    mesh_.finish(anywhere);
+    mesh_.finish(mesh_.anywhere);
     return more;
 }
 
@@ -130,7 +145,7 @@ bool Removal<D>::rename(const Point<D> &p, std::int64_t id, const double *attrib
     const bool is_same = corner != nowhere && cache_.vertices().attribute_count() == 0 &&
                          cache_.vertices().id(vertex_of(corner)) == id;
     if (corner != nowhere && !is_same) rewrite(corner, id, attributes);
-    mesh_.finish(anywhere);
+    mesh_.finish(mesh_.anywhere);
     return corner != nowhere;
 }
 
@@ -155,7 +170,7 @@ std::optional<std::int64_t> Removal<D>::id_at(const Point<D> &p, std::span<doubl
         if (!attributes.empty())
             std::copy_n(attributes_of(v, true), attributes.size(), attributes.begin());
     }
-    mesh_.finish(anywhere);
+    mesh_.finish(mesh_.anywhere);
     return id;
 }
 
@@ -172,7 +187,7 @@ bool Removal<D>::set_attributes(const Point<D> &p, std::span<const std::uint32_t
         if (std::memcmp(now, values_.data(), count * sizeof *now) != 0)
             rewrite(corner, cache_.vertices().id(v), values_.data());
     }
-    mesh_.finish(anywhere);
+    mesh_.finish(mesh_.anywhere);
     return corner != nowhere;
 }
 

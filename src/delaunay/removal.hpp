@@ -2,15 +2,18 @@
 // the other points, as if this one had never been inserted. (The dissertation adds
 // points only.)
 //
-// The vertex's star is removed and the hole is filled again: star.hpp, hole.hpp.
+// The vertex's star is removed and the hole is filled again: star.hpp, hole.hpp; in a constrained
+// mesh, refill.hpp.
 #pragma once
 
 #include "attributes/attribute_pages.hpp"
 #include "delaunay/hole.hpp"
+#include "delaunay/refill.hpp"
 #include "points/leaving.hpp"
 
 #include <optional>
 #include <span>
+#include <type_traits>
 #include <utility>
 
 namespace abacus {
@@ -25,7 +28,11 @@ template <int D> class Removal {
 public:
     /// `attributes`: where those of vertices are, unless the cache has them.
     explicit Removal(Delaunay<D> &mesh, AttributePages<D> *attributes = nullptr)
-        : mesh_(mesh), cache_(mesh.cache()), attributes_(attributes), star_(mesh), hole_(mesh) {}
+        : mesh_(mesh), cache_(mesh.cache()), attributes_(attributes), star_(mesh), hole_(mesh),
+          refill_(mesh) {}
+
+    /// The lines of a constrained mesh, which decide what can be removed.
+    void set_lines(LineSource *lines) { lines_ = lines; }
 
     /// Removes the vertex with exactly these coordinates (-0.0 equals 0.0); if a want is given,
     /// only a vertex that it accepts.
@@ -72,12 +79,17 @@ private:
     /// Collects the star of the vertex that find() finds; false if there is none.
     bool find_star(const Point<D> &p, Leaving *want);
     bool collapses() const;
+    /// In a constrained mesh: how many edges of the star's vertex are fixed.
+    std::size_t fixed_edges();
+    /// Throws an Error (state) if lines keep the star's vertex.
+    void require_removable();
     /// Whether all simplices in the hole will belong to the cache's interval.
     bool stays_within() const;
     /// Writes id and attributes of the vertex wherever it is stored.
     void rewrite(Link corner, std::int64_t id, const double *attributes);
     /// Removes the vertex of the star.
     void take_out();
+    std::uint64_t fill_hole();
     /// The attributes of a vertex, valid until the next call; null if they are apart, unless they
     /// are compared.
     const double *attributes_of(VertexIndex v, bool are_compared);
@@ -88,6 +100,11 @@ private:
     std::array<double, ABACUS_MAX_ATTRIBUTES> values_; // of a vertex
     Star<D> star_;
     Hole<D> hole_;
+    struct NoRefill {
+        explicit NoRefill(Delaunay<D> &) {}
+    };
+    std::conditional_t<D == 2, Refill, NoRefill> refill_; // of holes of a constrained mesh
+    LineSource *lines_ = nullptr;
     std::uint64_t effort_ = 0;
 };
 

@@ -10,8 +10,8 @@ Cache<D>::Cache(const Host &host, const Domain<D> &domain, int attributes,
                 const CacheOptions &options)
     : Blocks(host, options.budget, last_pass_room<D>(), PageCapacity(simplex_pages<D>(attributes))),
       domain_(domain), options_(options), vertices_(host, attributes, options.split_nodes),
-      visible_(host), inner_links_(host), writer_(host), border_(host), left_(host), uses_(host),
-      values_(host), codes_(host), guesses_(host) {
+      visible_(host), fixed_(host), inner_links_(host), writer_(host), border_(host), left_(host),
+      uses_(host), values_(host), codes_(host), guesses_(host) {
     values_.resize(static_cast<std::size_t>(attributes));
 }
 
@@ -25,6 +25,16 @@ template <int D> std::uint64_t Cache<D>::part(const Simplex<D> &s) const {
         codes[i] = v.code;
     }
     return Domain<D>::part(corners, codes, n);
+}
+
+template <int D> void Cache<D>::set_fixed(Handle h, unsigned facets) {
+    if (static_cast<std::size_t>(h) >= fixed_.size()) {
+        if (facets == 0) return;
+        const std::size_t before = fixed_.size();
+        fixed_.resize(slots_.size());
+        std::fill(fixed_.begin() + before, fixed_.end(), std::uint8_t{0});
+    }
+    fixed_[h] = static_cast<std::uint8_t>(facets);
 }
 
 template <int D> Handle Cache<D>::closest_of_some(BlockIndex b, const Point<D> &p) const {

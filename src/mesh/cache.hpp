@@ -37,6 +37,7 @@
 //      infinity too.
 //   4. A vertex of a visible facet is shared: a page that comes in finds it by its coordinates.
 //   5. The point at infinity is the last corner of a ghost, and no other one's.
+//   6. A facet is fixed on both sides or on none; none at the point at infinity is.
 #pragma once
 
 #include "blocks/block_cache.hpp"
@@ -92,6 +93,20 @@ public:
         ++counters.steps;
         const Link link = slots_[h].link[facet];
         return is_absent(link) ? miss(h, facet) : link;
+    }
+
+    // ---- Fixed facets, of a constrained mesh in the plane -----------------------------
+
+    /// A bit for each facet of a simplex that is fixed.
+    unsigned fixed(Handle h) const {
+        return static_cast<std::size_t>(h) < fixed_.size() ? fixed_[h] : 0u;
+    }
+    bool is_fixed(Link facet) const { return fixed(link_simplex(facet)) >> link_facet(facet) & 1; }
+    void set_fixed(Handle h, unsigned facets);
+    /// One side of it.
+    void set_fixed(Link facet, bool is_fixed) {
+        const unsigned bit = 1u << link_facet(facet), others = fixed(link_simplex(facet)) & ~bit;
+        set_fixed(link_simplex(facet), is_fixed ? others | bit : others);
     }
 
     /// Number of a vertex in a numbering of the caller's.
@@ -174,6 +189,7 @@ public:
     /// Frees the slot; the neighbours keep their links to it.
     void destroy(Handle h) {
         for (const VertexIndex v : slots_[h].vertex) vertices_.release(v);
+        forget_fixed(h);
         this->give_back(h, no_handle);
         ++counters.deleted;
     }
@@ -196,9 +212,15 @@ public:
 
     void ask_for_code(const Simplex<D> &s) const { touch(&vertices_[s.vertex[0]].code); }
     void ask_for_contents(BlockIndex b) const;
-    std::size_t bytes_beside_blocks() const { return vertices_.bytes() + visible_.bytes(); }
+    std::size_t bytes_beside_blocks() const {
+        return vertices_.bytes() + visible_.bytes() + fixed_.size();
+    }
     /// The neighbours' links follow.
     void moved(Handle from, Handle to) {
+        if (const unsigned facets = fixed(from); facets != 0) [[unlikely]] {
+            set_fixed(to, facets);
+            forget_fixed(from);
+        }
         for (int i = 0; i <= D; ++i) {
             const Link link = slots_[from].link[i];
             if (is_absent(link))
@@ -251,9 +273,23 @@ private:
     bool has_former_attributes(const abacus_page &page) const;
     VertexRun run_of_vertices() const;
     void load_simplices(Handle first);
+    void load_fixed(Handle first);
     void link_outside();
     void link_outside(Link link, std::uint32_t hash, const Key &beyond);
     bool leads_to(const Key &link, Handle h) const;
+    /// Both sides of a facet that is linked must say the same.
+    void check_fixed(Link facet, Link beyond) const {
+        if (is_fixed(facet) != is_fixed(beyond))
+            throw_corrupted("An edge is fixed on one of its sides only.");
+    }
+    void forget_fixed(Handle h) {
+        if (static_cast<std::size_t>(h) < fixed_.size()) [[unlikely]]
+            fixed_[h] = 0;
+    }
+    /// Of the slots of a block; null if none is fixed.
+    const std::uint8_t *fixed_of(Handle first) const {
+        return static_cast<std::size_t>(first) < fixed_.size() ? &fixed_[first] : nullptr;
+    }
 
     // cache_store.cpp
     void mark_border();
@@ -281,6 +317,8 @@ private:
     CacheOptions options_;
     VertexHeap<D> vertices_;
     VisibleFacets<D> visible_;
+    /// Of all slots, if a facet is or was fixed; 0 of free ones.
+    Arena<std::uint8_t, Handle> fixed_;
 
     // Page translation: reused from page to page.
     PageView<D> view_;

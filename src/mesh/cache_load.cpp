@@ -78,6 +78,7 @@ template <int D> void Cache<D>::tie(BlockIndex b) {
     load_vertices();
     notes_[b] = run_of_vertices();
     load_simplices(first);
+    load_fixed(first);
     link_outside();
 }
 
@@ -138,6 +139,21 @@ template <int D> void Cache<D>::load_simplices(Handle first) {
     vertices_.acquire(infinite_vertex, uses_[border_.vertices.size()]);
 }
 
+/// Facets on the border are not linked yet.
+template <int D> void Cache<D>::load_fixed(Handle first) {
+    if (!view_.has_fixed()) return;
+    for (int s = 0; s < view_.simplices(); ++s) {
+        const unsigned facets = view_.fixed(s);
+        if (view_.is_ghost(s) && (facets & ~(1u << D)) != 0)
+            throw_corrupted("An edge at the point at infinity is fixed.");
+        set_fixed(first + static_cast<std::uint32_t>(s), facets);
+    }
+    for (std::uint32_t s = 0; s < static_cast<std::uint32_t>(view_.simplices()); ++s)
+        for (int i = 0; i <= D; ++i)
+            if (const Link link = slots_[first + s].link[i]; link != unset)
+                check_fixed(make_link(first + s, i), link);
+}
+
 template <int D> void Cache<D>::link_outside() {
     // The data of other blocks lies in cold memory: table, entry, simplex.
     border_.hashes.resize(border_.facets.size());
@@ -181,6 +197,7 @@ template <int D> void Cache<D>::link_outside(Link link, std::uint32_t hash, cons
         throw_corrupted("A link has the key of a simplex other than its neighbour.");
     visible_.remove(number);
     connect(owner, link);
+    check_fixed(owner, link);
 }
 
 template <int D> bool Cache<D>::leads_to(const Key &link, Handle h) const {

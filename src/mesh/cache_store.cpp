@@ -45,6 +45,7 @@ template <int D> void Cache<D>::untie(BlockIndex b) {
     }
     for_each_record(b, [&](Handle h) {
         for (const VertexIndex v : slots_[h].vertex) vertices_.release(v);
+        forget_fixed(h);
     });
     // All simplices of a vertex off the border are in this block.
     for (std::size_t n = 0; n < border_.vertices.size(); ++n) {
@@ -126,7 +127,7 @@ template <int D> EncodedPage Cache<D>::encode_page(BlockIndex b) {
     const Handle first = first_of(b);
     border_.block = b;
     writer_.order(&slots_[first], blocks_[b].high_water, first, vertices_, border_.vertices,
-                  border_.facets);
+                  border_.facets, fixed_of(first));
     mark_border();
     // The opposite vertex is the neighbour's only one that is not on the facet.
     for (const Link inner : border_.facets) {

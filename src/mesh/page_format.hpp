@@ -11,6 +11,7 @@
 //   links       for each facet whose neighbour is in another page, in the order simplex by
 //               simplex, facet by facet: the number of the vertex whose code is that of the
 //               neighbour's key; beyond the vertices come the codes
+//   fixed       if a facet is fixed, D + 1 bits a simplex: which of its facets are
 //   checksum    8 bytes, XXH3 of all before
 //
 // Simplices come in trees, each breadth first across facets (cf. Rossignac's Edgebreaker,
@@ -50,7 +51,7 @@ struct PageHeader {
     std::uint8_t version;
     std::uint8_t dimension;
     std::uint8_t attributes;
-    std::uint8_t reserved; // 0
+    std::uint8_t fixed; // 1: some facets are fixed
     std::uint16_t simplices;
     std::uint16_t vertices;
     std::uint16_t links;
@@ -159,6 +160,11 @@ public:
     /// Vertex number of a corner; vertices() for the point at infinity.
     int corner(int simplex, int i) const { return corners(simplex)[i]; }
     const Lanes &corners(int simplex) const { return corners_[simplex]; }
+    bool has_fixed() const { return header_.fixed != 0; }
+    /// A bit for each fixed facet of a simplex.
+    unsigned fixed(int simplex) const {
+        return has_fixed() ? static_cast<unsigned>(fixed_[simplex]) : 0;
+    }
     bool is_ghost(int simplex) const { return corner(simplex, D) == vertices(); }
 
     /// The facet across which a simplex was reached, as its parent sees it: `no_link` of
@@ -193,7 +199,7 @@ private:
     Column codes_, parts_;
     BitFields link_vertices_;
     bool has_parts_;
-    BitFields steps_, numbers_;
+    BitFields steps_, numbers_, fixed_;
     std::array<double, 2 * D> box_;
     std::array<Point<D>, page_vertices<D>> points_;
     std::array<Lanes, block_slots<D>> corners_;

@@ -179,7 +179,8 @@ private:
 
 template <int D>
 void PageWriter<D>::order(const Simplex<D> *slots, std::uint32_t end, Handle first,
-                          Vertices &vertices, Numbering &numbered, Arena<Link> &border) {
+                          Vertices &vertices, Numbering &numbered, Arena<Link> &border,
+                          const std::uint8_t *fixed) {
     const std::size_t facets = std::size_t(end) * (D + 1);
     attributes_ = vertices.attribute_count();
     numbered.clear();
@@ -199,6 +200,8 @@ void PageWriter<D>::order(const Simplex<D> *slots, std::uint32_t end, Handle fir
     named_.resize(static_cast<std::size_t>(tour.named_end() - named_.data()));
     border.resize(static_cast<std::size_t>(tour.border_end() - border.data()));
     links_.resize(border.size());
+    fixed_.clear();
+    if (fixed != nullptr) gather_fixed(slots, fixed);
 }
 
 } // namespace abacus

@@ -40,6 +40,22 @@ template <int D> void PageWriter<D>::gather(const Vertices &vertices, const Numb
         plans_[i] = {columns_.data() + i * vertices_, vertices_};
 }
 
+template <int D>
+void PageWriter<D>::gather_fixed(const Simplex<D> *slots, const std::uint8_t *fixed) {
+    unsigned all = 0;
+    for (std::size_t s = 0; s < simplices_; ++s) all |= fixed[order_[s].slot];
+    if (all == 0) return;
+    for (std::size_t s = 0; s < simplices_; ++s) {
+        const Simplex<D> &simplex = slots[order_[s].slot];
+        unsigned bits = 0;
+        for (int i = 0; i <= D; ++i)
+            for (int k = 0; k <= D; ++k)
+                if (corners_[s][i] == to_number(simplex.vertex[k]))
+                    bits |= (fixed[order_[s].slot] >> k & 1u) << i;
+        fixed_.push_back(static_cast<std::uint8_t>(bits));
+    }
+}
+
 template <int D> void PageWriter<D>::bound_patches() {
     prefixes_.resize(vertices_);
     for (std::size_t axis = 0; axis < D; ++axis) {
@@ -114,7 +130,7 @@ template <int D> std::size_t PageWriter<D>::planned_size() const {
     for (const ColumnPlan &plan : plans_) size += plan.size();
     return size + foreign_plan_.size() + parts_plan_.size() +
            bits_to_bytes(links_.size() * std::bit_width(vertices_ + foreign_.size())) +
-           bits_to_bytes(simplices_ * (D + 1)) +
+           bits_to_bytes(simplices_ * (D + 1)) + bits_to_bytes(fixed_.size() * (D + 1)) +
            bits_to_bytes(named_.size() * std::bit_width(vertices_));
 }
 
@@ -124,6 +140,7 @@ template <int D> void PageWriter<D>::write(const Key &lower, const Key &upper) {
     header.version = PageHeader::expected_version;
     header.dimension = D;
     header.attributes = static_cast<std::uint8_t>(attributes_);
+    header.fixed = fixed_.empty() ? 0 : 1;
     header.simplices = static_cast<std::uint16_t>(simplices_);
     header.vertices = static_cast<std::uint16_t>(vertices_);
     header.links = static_cast<std::uint16_t>(links_.size());
@@ -154,6 +171,7 @@ template <int D> void PageWriter<D>::write(const Key &lower, const Key &upper) {
     at = foreign_plan_.write_deltas(foreign_.data(), at);
     at = parts_plan_.write_deltas(parts_.data(), at);
     put(link_vertices_, std::bit_width(vertices_ + foreign_.size()));
+    put(fixed_, D + 1);
     seal_page(page_, size_);
 }
 

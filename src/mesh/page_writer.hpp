@@ -23,13 +23,14 @@ public:
     explicit PageWriter(const Host &host)
         : order_(host), patches_(host), prefixes_(host), reached_(host), cut_(host), corners_(host),
           named_(host), links_(host), columns_(host), plans_(host), foreign_(host), parts_(host),
-          link_vertices_(host), codes_(host), coded_(host), index_(host) {}
+          link_vertices_(host), fixed_(host), codes_(host), coded_(host), index_(host) {}
 
     /// Begins a page of the simplices in the slots [slots, end), whose handles begin with
     /// `first`. Sets `numbered` to the page's vertices and `border` to the inner sides of its
-    /// border, both in the page's order.
+    /// border, both in the page's order. `fixed` has a bit for each fixed facet of a slot; null if
+    /// none is fixed.
     void order(const Simplex<D> *slots, std::uint32_t end, Handle first, Vertices &vertices,
-               Numbering &numbered, Arena<Link> &border);
+               Numbering &numbered, Arena<Link> &border, const std::uint8_t *fixed = nullptr);
     /// So many links follow, where facets are untold: in the order of those that turn out to
     /// lie on the border.
     void expect_links(std::size_t links) { links_.resize(links); }
@@ -50,6 +51,8 @@ private:
     class Tour; // page_order.cpp
 
     void gather(const Vertices &vertices, const Numbering &numbered);
+    /// In the page's order.
+    void gather_fixed(const Simplex<D> *slots, const std::uint8_t *fixed);
     void bound_patches();
     void code_links(const Vertices &vertices, const Numbering &numbered, const bool *on_border);
     std::size_t planned_size() const;
@@ -79,9 +82,10 @@ private:
     Arena<std::uint64_t> parts_;
     ColumnPlan foreign_plan_, parts_plan_;
     Arena<std::uint16_t> link_vertices_;
-    Arena<std::uint64_t> codes_;                           // that index_ knows
-    Arena<std::uint16_t> coded_;                           // their numbers
-    Arena<std::uint16_t> index_;                           // hash table of codes_
+    Arena<std::uint8_t> fixed_;  // of the simplices; empty if no facet is fixed
+    Arena<std::uint64_t> codes_; // that index_ knows
+    Arena<std::uint16_t> coded_; // their numbers
+    Arena<std::uint16_t> index_; // hash table of codes_
     alignas(8) unsigned char page_[ABACUS_PAGE_BYTES + 8]; // BitWriter writes beyond
     std::size_t size_ = 0;
 };

@@ -1,0 +1,82 @@
+// Fixed edges behind the C interface.
+#include "constrain/segments.hpp"
+
+#include "capi/build.hpp"
+#include "capi/dispatch.hpp"
+#include "capi/handle.hpp"
+#include "capi/mesh.hpp"
+#include "query/locate/edges_along.hpp"
+
+#include <abacus/constrain.h>
+
+struct abacus_segments {
+    abacus_segments(const abacus_host *table, const abacus_facts &facts, std::size_t memory)
+        : host(*table), segments(host, facts, memory) {}
+
+    const abacus::Host host;
+    abacus::Segments segments;
+};
+
+abacus_status abacus_segments_open(const abacus_host *host, const abacus_facts *facts,
+                                   size_t memory, abacus_segments **segments, abacus_error *error) {
+    return abacus::guard(error, [&] {
+        *segments = abacus::create_handle<abacus_segments>(host, *facts, memory);
+        return ABACUS_OK;
+    });
+}
+
+abacus_status abacus_segments_add(abacus_segments *segments, const double *ends, size_t count,
+                                  abacus_error *error) {
+    return abacus::guard(error, [&] {
+        for (size_t i = 0; i < count; ++i) segments->segments.add(ends + 4 * i);
+        return ABACUS_OK;
+    });
+}
+
+void abacus_segments_close(abacus_segments *segments) { abacus::destroy_handle(segments); }
+
+abacus_status abacus_build_lines(abacus_build *build, abacus_segments_at at, void *context,
+                                 abacus_error *error) {
+    return abacus::guard(error, [&] {
+        build->lines.emplace(at, context);
+        build->build.visit([&](auto &opened) { opened.set_lines(&*build->lines); });
+        return ABACUS_OK;
+    });
+}
+
+abacus_status abacus_build_fix(abacus_build *build, abacus_segments *segments,
+                               abacus_header *header, abacus_error *error) {
+    return abacus::run_change(build, header, error, [&](auto &opened, abacus_header &changed) {
+        opened.fix(segments->segments, changed);
+    });
+}
+
+abacus_status abacus_build_unfix(abacus_build *build, abacus_segments *segments,
+                                 abacus_header *header, abacus_error *error) {
+    return abacus::run_change(build, header, error, [&](auto &opened, abacus_header &changed) {
+        opened.unfix(segments->segments, changed);
+    });
+}
+
+abacus_status abacus_edges_along(abacus_mesh *mesh, const double a[2], const double b[2],
+                                 abacus_along_report report, void *context, int *is_whole,
+                                 abacus_error *error) {
+    using namespace abacus;
+    return guard(error, [&] {
+        return mesh->reader.visit([&]<int D>(Reader<D> &reader) -> abacus_status {
+            if constexpr (D != 2) {
+                throw Error(ABACUS_ERROR_ARGUMENT, "lines need a mesh of dimension 2");
+            } else {
+                const auto tell = [&](VertexIndex from, VertexIndex to, bool is_fixed) {
+                    const VertexHeap<2> &vertices = reader.cache().vertices();
+                    const std::int64_t ids[2] = {vertices.id(from), vertices.id(to)};
+                    const Point<2> &p = vertices.point(from), &q = vertices.point(to);
+                    const double ends[2][2] = {{p[0], p[1]}, {q[0], q[1]}};
+                    if (report(context, ids, ends, is_fixed) != ABACUS_HOST_OK) throw HostFailure{};
+                };
+                *is_whole = edges_along(reader, finite_point<2>(a), finite_point<2>(b), tell);
+                return ABACUS_OK;
+            }
+        });
+    });
+}

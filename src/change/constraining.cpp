@@ -1,0 +1,53 @@
+#include "change/constraining.hpp"
+
+#include "constrain/fixing.hpp"
+#include "constrain/freeing.hpp"
+
+namespace abacus {
+
+namespace {
+constexpr std::uint64_t segments_at_once = 256; // between two reports
+} // namespace
+
+template <int D>
+template <class Change>
+std::uint64_t Constraining<D>::each(Segments &segments, Change change) {
+    const std::uint64_t all = segments.size();
+    std::uint64_t done = 0;
+    work_.report(ABACUS_PHASE_INSERTING, 0, all);
+    segments.each([&](const Segments::Segment &segment) {
+        change(segment);
+        if (++done % segments_at_once == 0) work_.report(ABACUS_PHASE_INSERTING, done, all);
+    });
+    return all;
+}
+
+template <int D> std::uint64_t Constraining<D>::fix(Segments &segments) {
+    if constexpr (D == 2) {
+        if (!work_.has_simplices())
+            throw Error(ABACUS_ERROR_STATE, "the points of the mesh span no triangle");
+        work_.core->mesh.is_constrained = true;
+        Fixing fixing(work_.core->mesh);
+        return each(segments, [&](const Segments::Segment &s) { fixing.fix(s.a, s.b); });
+    } else {
+        throw Error(ABACUS_ERROR_ARGUMENT, "lines need a mesh of dimension 2");
+    }
+}
+
+template <int D> std::uint64_t Constraining<D>::unfix(Segments &segments) {
+    if constexpr (D == 2) {
+        if (!work_.has_simplices()) return 0;
+        if (work_.lines == nullptr)
+            throw Error(ABACUS_ERROR_STATE, "edges cannot be freed without the lines of the mesh");
+        work_.core->mesh.is_constrained = true;
+        Freeing freeing(work_.core->mesh, *work_.lines);
+        return each(segments, [&](const Segments::Segment &s) { freeing.free(s.a, s.b); });
+    } else {
+        throw Error(ABACUS_ERROR_ARGUMENT, "lines need a mesh of dimension 2");
+    }
+}
+
+template class Constraining<2>;
+template class Constraining<3>;
+
+} // namespace abacus

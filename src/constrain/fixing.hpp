@@ -1,0 +1,77 @@
+// Puts segments into a mesh in the plane, as fixed edges.
+//
+// The ends of a segment are vertices. From one end to the other it leads along edges, which become
+// fixed, or across triangles. Between two vertices that lie on the segment, the triangles that it
+// crosses are replaced: the polygon on either side of it is triangulated anew (patch.hpp), and its
+// new edge is fixed. No other triangle changes, since a fixed edge only takes from what a circle
+// can see (Chew 1989; Anglada 1997). Where an edge dangles into a polygon, its two sides meet
+// again.
+//
+// So a long segment is put in piece by piece, and only the pages of one piece are in memory
+// together.
+#pragma once
+
+#include "delaunay/patch.hpp"
+#include "traverse/straight.hpp"
+
+namespace abacus {
+
+class Fixing {
+public:
+    explicit Fixing(Delaunay<2> &mesh);
+
+    /// Fixes the segment from a to b. Throws an Error (argument) if one is not a vertex, or if the
+    /// segment crosses a fixed edge.
+    void fix(const Point<2> &a, const Point<2> &b);
+
+    /// Edges fixed so far that were not, and those that were not edges of the mesh before.
+    std::uint64_t fixed() const { return fixed_; }
+    std::uint64_t forced() const { return forced_; }
+
+private:
+    /// Of a side of the segment: its vertices from one end to the other, and the edges between
+    /// them, from the triangles that are crossed.
+    struct Bank {
+        explicit Bank(const Memory &memory) : vertices(memory), edges(memory) {}
+        void begin(VertexIndex v) {
+            vertices.clear();
+            edges.clear();
+            vertices.push_back(v);
+        }
+        void add(Link edge, VertexIndex v) {
+            edges.push_back(edge);
+            vertices.push_back(v);
+        }
+        Arena<VertexIndex> vertices;
+        Arena<Link> edges;
+    };
+
+    /// Fixes the part from a vertex on the segment to the next one, which it returns.
+    Point<2> advance(const Point<2> &from, const Point<2> &b);
+    Point<2> fix_edge(const Way &way, const Point<2> &from, const Point<2> &b);
+    Point<2> force_edge(const Way &way, const Point<2> &b);
+    /// Finds the triangles that are crossed; returns the vertex where they end.
+    VertexIndex cross(const Way &way, const Point<2> &b);
+    void require_free(Link edge, const Point<2> &from, const Point<2> &b) const;
+    void cut_out();
+    /// Makes the sides of both banks known to the patch.
+    void meet(const Bank &bank, Arena<Patch::Side> &sides);
+    void pair_up();
+
+    /// An edge of a bank with a crossed triangle on either side.
+    struct Dangling {
+        Link inner, outer;
+        Patch::Side *side;
+    };
+
+    Delaunay<2> &mesh_;
+    Cache<2> &cache_;
+    Patch patch_;
+    Arena<Handle> crossed_;
+    Bank left_, right_;
+    Arena<Patch::Side> left_sides_, right_sides_;
+    Arena<Dangling> dangling_;
+    std::uint64_t fixed_ = 0, forced_ = 0;
+};
+
+} // namespace abacus

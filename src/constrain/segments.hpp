@@ -1,0 +1,71 @@
+// Segments of lines, collected in any order and read along the curve: by the code of their
+// lexicographically lesser end. Equal ones come once.
+#pragma once
+
+#include "geometry/point.hpp"
+#include "keys/domain_of.hpp"
+#include "sort/record_sort.hpp"
+
+#include <abacus/facts.h>
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <optional>
+
+namespace abacus {
+
+class Segments {
+public:
+    struct Segment {
+        Point<2> a, b;
+    };
+
+    Segments(const Host &host, const abacus_facts &facts, std::size_t memory)
+        : sort_(host, words, words, memory) {
+        if (facts.form.dimension != 2)
+            throw Error(ABACUS_ERROR_ARGUMENT, "lines need a mesh of dimension 2");
+        if (facts.form.has_domain != 0) domain_.emplace(domain_of<2>(facts.form));
+    }
+
+    /// Adds a segment: x and y of both ends.
+    void add(const double *ends) {
+        for (int i = 0; i < 4; ++i)
+            if (!std::isfinite(ends[i]))
+                throw Error(ABACUS_ERROR_ARGUMENT, "a coordinate of a line is not finite");
+        Point<2> a{ends[0] + 0.0, ends[1] + 0.0}, b{ends[2] + 0.0, ends[3] + 0.0}; // 0, not -0
+        if (b < a) std::swap(a, b);
+        std::uint64_t *const record = sort_.add();
+        record[0] = domain_ ? domain_->code(a) : 0;
+        for (int i = 0; i < 2; ++i) {
+            record[1 + i] = std::bit_cast<std::uint64_t>(a[i]);
+            record[3 + i] = std::bit_cast<std::uint64_t>(b[i]);
+        }
+    }
+    /// Counts equal ones too.
+    std::uint64_t size() const { return sort_.size(); }
+
+    /// Calls visit(segment) for each; no more can be added.
+    template <class Visit> void each(Visit visit) {
+        sort_.finish();
+        std::array<std::uint64_t, words> last{};
+        bool is_first = true;
+        while (const std::uint64_t *record = sort_.next()) {
+            if (!is_first && std::equal(last.begin(), last.end(), record)) continue;
+            std::copy_n(record, words, last.begin());
+            is_first = false;
+            std::array<double, 4> x;
+            for (int i = 0; i < 4; ++i) x[i] = std::bit_cast<double>(record[1 + i]);
+            visit(Segment{{x[0], x[1]}, {x[2], x[3]}});
+        }
+        sort_.close();
+    }
+
+private:
+    static constexpr std::size_t words = 5;
+
+    RecordSort sort_; // code, both ends
+    std::optional<Domain<2>> domain_;
+};
+
+} // namespace abacus

@@ -1,0 +1,32 @@
+// Which line lies over a fixed edge: one with a segment that has an end at the edge, or passes both
+// of its ends. That segment is straight, and all of it is fixed. So one of its ends is found by
+// going on from an end of the edge, straight along fixed edges.
+#pragma once
+
+#include "delaunay/delaunay.hpp"
+#include "delaunay/line_source.hpp"
+#include "traverse/straight.hpp"
+
+#include <optional>
+
+namespace abacus {
+
+class LinesOver {
+public:
+    LinesOver(Delaunay<2> &mesh, LineSource &lines) : mesh_(mesh), lines_(lines) {}
+
+    /// A line with a segment over the edge between two vertices; nothing if there is none.
+    std::optional<std::int64_t> find(const Point<2> &a, const Point<2> &b);
+
+private:
+    /// A line with a segment that ends at p and goes through `through` and, if it is not p,
+    /// beyond.
+    std::optional<std::int64_t> from(const Point<2> &p, const Point<2> &through, bool beyond);
+    /// The end of the fixed edge from `at` that leads straight away from `behind`.
+    std::optional<Point<2>> next(const Point<2> &behind, const Point<2> &at);
+
+    Delaunay<2> &mesh_;
+    LineSource &lines_;
+};
+
+} // namespace abacus
