@@ -315,6 +315,7 @@ PG_SOURCES += src/pg/sql/build/fn_triangulate.c
 PG_SOURCES += src/pg/sql/build/fn_update.c
 PG_SOURCES += src/pg/sql/check/fn_check.c
 PG_SOURCES += src/pg/sql/check/fn_stats.c
+PG_SOURCES += src/pg/sql/constrain/fn_crossings.c
 PG_SOURCES += src/pg/sql/draw/drawing.c
 PG_SOURCES += src/pg/sql/draw/fn_draw.c
 PG_SOURCES += src/pg/sql/draw/fn_tile.c
