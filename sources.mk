@@ -6,6 +6,7 @@
 CORE.exact += src/geometry/ball.cpp
 CORE.exact += src/geometry/circumradius.cpp
 CORE.exact += src/geometry/contact.cpp
+CORE.exact += src/geometry/crossing.cpp
 CORE.exact += src/geometry/cutting_plane.cpp
 CORE.exact += src/geometry/distance.cpp
 CORE.exact += src/geometry/equidistant.cpp
@@ -30,6 +31,10 @@ CORE.base += src/sort/dense_ranks.cpp
 CORE.base += src/sort/radix_sort.cpp
 CORE.base += src/sort/record_sort.cpp
 CORE.base += src/sort/shared_sort.cpp
+
+CORE.segments += src/segments/segment_sweep.cpp
+CORE.segments += src/segments/line_corners.cpp
+CORE.segments += src/segments/crossings.cpp
 
 CORE.geometry += src/geometry/cell_shape.cpp
 CORE.geometry += src/geometry/exact_sum.cpp
@@ -204,6 +209,7 @@ CORE.lab += src/quake/quake_points.cpp
 CORE.capi_ask += src/capi/cells.cpp
 CORE.capi_ask += src/capi/check.cpp
 CORE.capi_ask += src/capi/contours.cpp
+CORE.capi_ask += src/capi/crossings.cpp
 CORE.capi_ask += src/capi/draw.cpp
 CORE.capi_ask += src/capi/faces.cpp
 CORE.capi_ask += src/capi/lines.cpp
@@ -316,6 +322,7 @@ PG_SOURCES += src/pg/sql/build/fn_triangulate.c
 PG_SOURCES += src/pg/sql/build/fn_update.c
 PG_SOURCES += src/pg/sql/check/fn_check.c
 PG_SOURCES += src/pg/sql/check/fn_stats.c
+PG_SOURCES += src/pg/sql/constrain/fn_crossings.c
 PG_SOURCES += src/pg/sql/draw/drawing.c
 PG_SOURCES += src/pg/sql/draw/fn_draw.c
 PG_SOURCES += src/pg/sql/draw/fn_tile.c

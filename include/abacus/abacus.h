@@ -13,6 +13,7 @@
  *   lines.h      rays, profiles, lines of sight
  *   windows.h    simplices, vertices and edges of a window; scan.h: all, in order
  *   contours.h, surface.h, shapes.h, volume.h   lines, surfaces, outlines, volumes
+ *   crossings.h                                 where segments of lines cross
  *   draw.h, raycast.h, tile.h                   pictures
  *   octree.h, octree_ask.h                      octrees
  *   check.h                                     verification
@@ -37,6 +38,7 @@
 #include "abacus/build.h"
 #include "abacus/check.h"
 #include "abacus/contours.h"
+#include "abacus/crossings.h"
 #include "abacus/draw.h"
 #include "abacus/facts.h"
 #include "abacus/goose.h"

@@ -45,7 +45,8 @@ typedef enum abacus_error_kind
 	ABACUS_ERROR_ARGUMENT,  /* a value that the function does not take */
 	ABACUS_ERROR_STATE,     /* not possible in the mesh's present state */
 	ABACUS_ERROR_LIMIT,     /* a limit of the format is exceeded */
-	ABACUS_ERROR_DUPLICATE  /* a point equals one that is there */
+	ABACUS_ERROR_DUPLICATE, /* a point equals one that is there */
+	ABACUS_ERROR_UNSUPPORTED /* what the core does not do yet */
 } abacus_error_kind;
 
 /* Zero-terminated texts in PostgreSQL's style; detail and hint may be empty. */

@@ -54,6 +54,10 @@ ABACUS_API abacus_status abacus_mesh_nearest(abacus_mesh *mesh, const double *po
 											 abacus_error *error);
 ABACUS_API void abacus_mesh_counters(const abacus_mesh *mesh, abacus_counters *counters);
 
+/* The id of the vertex at a place; of one of them, if several share it. ABACUS_END if there is none. */
+ABACUS_API abacus_status abacus_mesh_vertex_at(abacus_mesh *mesh, const double *point, int64_t *id,
+											   abacus_error *error);
+
 /* Gets one of several simplices, valid during the call. May fail as a host function may. */
 typedef abacus_host_status (*abacus_simplex_report)(void *context, const abacus_simplex *simplex);
 /*

@@ -19,6 +19,7 @@
 // of the mantissa, and those on a grid end with zeros.
 #pragma once
 
+#include "geometry/ordered.hpp"
 #include "host/processor_cache.hpp"
 
 #include <bit>
@@ -27,15 +28,6 @@
 #include <cstring>
 
 namespace abacus {
-
-/// Rank of a double among all: the order of words is that of the doubles.
-constexpr std::uint64_t ordered(double x) {
-    const auto bits = std::bit_cast<std::uint64_t>(x);
-    return bits >> 63 ? ~bits : bits | 1ull << 63;
-}
-constexpr double from_ordered(std::uint64_t rank) {
-    return std::bit_cast<double>(rank >> 63 ? rank & ~(1ull << 63) : ~rank);
-}
 
 constexpr std::size_t bits_to_bytes(std::size_t bits) { return (bits + 7) / 8; }
 

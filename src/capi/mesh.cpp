@@ -97,6 +97,15 @@ abacus_status abacus_mesh_nearest(abacus_mesh *mesh, const double *point, uint64
     });
 }
 
+abacus_status abacus_mesh_vertex_at(abacus_mesh *mesh, const double *point, int64_t *id,
+                                    abacus_error *error) {
+    return answer_at(mesh, point, error, [&](auto &reader, const auto &p) {
+        const auto found = reader.vertex_at(p);
+        if (found) *id = *found;
+        return found.has_value();
+    });
+}
+
 abacus_status abacus_mesh_star(abacus_mesh *mesh, const double *point, abacus_simplex_report report,
                                void *context, abacus_error *error) {
     return abacus::dispatch(mesh->reader, error, [&]<int D>(abacus::Reader<D> &reader) {

@@ -7,11 +7,13 @@
 #include "traverse/marks.hpp"
 #include "traverse/topology.hpp"
 
+#include <algorithm>
+
 namespace abacus {
 
 template <int D> class Flood {
 public:
-    explicit Flood(const Memory &memory) : marks_(memory), met_(memory) {}
+    explicit Flood(const Memory &memory) : marks_(memory), met_(memory), ahead_(memory) {}
 
     /// Calls visit(h) for each simplex when it is met, the first one too, until that returns
     /// false; returns whether it never did. crosses(h, facet) tells whether the flood goes on
@@ -41,6 +43,32 @@ public:
         return from(mesh, first, has_vertex, visit);
     }
 
+    /// In the order of the ranks of the facets that lead to them: rank(h, facet) is a number. Calls
+    /// visit(h) for each simplex when it is met, as long as is_within(rank) holds for the next one.
+    template <Topology<D> Mesh, class Rank, class IsWithin, class Visit>
+    void by_rank(Mesh &mesh, Handle first, Rank rank, IsWithin is_within, Visit visit) {
+        met_.clear();
+        ahead_.clear();
+        const auto meet_at = [&](Handle h, int from) {
+            meet(h, visit);
+            for (int i = 0; i <= D; ++i)
+                if (i != from) {
+                    ahead_.push_back({rank(h, i), make_link(h, i)});
+                    std::push_heap(ahead_.begin(), ahead_.end());
+                }
+        };
+        for (meet_at(first, D + 1); !ahead_.empty() && is_within(ahead_[0].rank);) {
+            const Link facet = ahead_[0].facet;
+            std::pop_heap(ahead_.begin(), ahead_.end());
+            ahead_.pop_back();
+            const Link beyond = mesh.cross(link_simplex(facet), link_facet(facet));
+            if (marks_.get(link_simplex(beyond)) != Marks::none) continue;
+            if (met_.size() % 4096 == 4095) mesh.poll();
+            meet_at(link_simplex(beyond), link_facet(beyond));
+        }
+        forget_marks();
+    }
+
     /// After a flood that has thrown: the next one begins anew.
     void give_up() {
         forget_marks();
@@ -54,14 +82,21 @@ private:
     void forget_marks() {
         for (const Handle h : met_) marks_.set(h, Marks::none);
     }
-    template <class Visit> bool meet(Handle h, Visit &visit) {
+    template <class Visit> auto meet(Handle h, Visit &visit) {
         marks_.set(h, Marks::inside);
         met_.push_back(h);
         return visit(h);
     }
 
+    struct Ahead {
+        double rank;
+        Link facet; // of a simplex that has been met
+        bool operator<(const Ahead &other) const { return other.rank < rank; }
+    };
+
     Marks marks_;
     Arena<Handle> met_;
+    Arena<Ahead> ahead_; // a heap
 };
 
 } // namespace abacus

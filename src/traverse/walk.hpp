@@ -2,9 +2,10 @@
 // a Triangulation", 2002; dissertation §4.11.3): from simplex to simplex across a facet
 // that separates it from the target, never back through the one it came in by, the first
 // facet tried drawn at random. In a Delaunay triangulation no such walk visits a simplex
-// twice. So a walk with more steps than the mesh has simplices shows that the mesh is
-// damaged. In other meshes it may go round in circles for a while, and end at a boundary
-// that is not the hull; within() tells.
+// twice. In a constrained one it may go round in circles for a while; each time it passes a
+// simplex with two facets to choose from, it leaves the circle with a chance of one half. So a
+// walk with a great many more steps than the mesh has simplices shows that the mesh is damaged.
+// Other meshes may have a boundary that is not the hull, where a walk ends; within() tells.
 #pragma once
 
 #include "traverse/separator.hpp"
@@ -32,10 +33,11 @@ public:
     }
 
     /// The simplex that contains p in its closure; a ghost whose hull facet has p
-    /// strictly beyond it if p lies outside the hull. `longest`: simplices of the mesh,
-    /// ghosts included.
-    Handle to(const Point<D> &p, Handle from, std::uint64_t longest) {
-        const Handle h = within(p, from, longest);
+    /// strictly beyond it if p lies outside the hull. The mesh fills its convex hull.
+    /// `simplices`: of the mesh, ghosts included.
+    Handle to(const Point<D> &p, Handle from, std::uint64_t simplices) {
+        constexpr std::uint64_t rounds = 64, few = 4096;
+        const Handle h = within(p, from, rounds * simplices + few);
         if (h == no_handle) throw_corrupted("A walk in the mesh does not end.");
         return h;
     }

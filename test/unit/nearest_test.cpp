@@ -1,5 +1,6 @@
 // The nearest vertices, compared with brute force in exact arithmetic over all points.
 #include "query/locate/nearest.hpp"
+#include "support/flipped_mesh.hpp"
 #include "support/point_sets.hpp"
 #include "support/sanitized.hpp"
 #include "support/triangulations.hpp"
@@ -114,6 +115,44 @@ template <int D> void expect_nearest_of_loaded() {
 TEST(Nearest, OfMeshesThatAreNotDelaunay) {
     expect_nearest_of_loaded<2>();
     expect_nearest_of_loaded<3>();
+}
+
+// With fixed edges neighbours need not be near; some of these have none flipped.
+TEST(Nearest, OfConstrainedMeshes) {
+    Random random(6);
+    for (const PointSet<2> &set : point_sets<2>()) {
+        SCOPED_TRACE(set.name);
+        auto points = set.points(random);
+        if (points.size() > 200) points.resize(200);
+        for (Point<2> &p : points)
+            for (double &x : p) x += 0.0;
+        for (const int draws : {0, 2000}) {
+            Mesh mesh(0);
+            ASSERT_EQ(mesh.stage(number(points)), ABACUS_OK);
+            ASSERT_EQ(mesh.build(), ABACUS_OK) << mesh.error.message;
+            if (mesh.header.facts.census.simplices == 0) continue;
+            flip_edges(mesh, draws, 7);
+            call_constrained(mesh);
+            expect_nearest<2>(mesh, points, random);
+        }
+    }
+}
+
+TEST(Nearest, ReadsFewPagesOfConstrainedMeshes) {
+    Mesh mesh(0, ample);
+    ASSERT_EQ(mesh.stage(number(unit_square_points(100000, 4))), ABACUS_OK);
+    ASSERT_EQ(mesh.build(), ABACUS_OK);
+    call_constrained(mesh);
+    const Host host = mesh.host.host();
+    Random random(5);
+    for (int i = 0; i < 20; ++i) {
+        Reader<2> reader(host, mesh.header.facts, ample);
+        ASSERT_EQ(nearest<2>(reader, {unit(random), unit(random)}, 50).size(), 50u);
+        EXPECT_LE(reader.pages_read(), 12u) << "of " << mesh.host.pages.size();
+        Reader<2> from_far(host, mesh.header.facts, ample);
+        ASSERT_EQ(nearest<2>(from_far, {3 + unit(random), 9 * unit(random) - 4}, 5).size(), 5u);
+        EXPECT_LE(from_far.pages_read(), 60u) << "of " << mesh.host.pages.size();
+    }
 }
 
 TEST(Nearest, HasIdsAndAttributes) {

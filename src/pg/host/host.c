@@ -94,6 +94,8 @@ sqlstate_of(abacus_error_kind kind)
 			return ERRCODE_PROGRAM_LIMIT_EXCEEDED;
 		case ABACUS_ERROR_DUPLICATE:
 			return ERRCODE_UNIQUE_VIOLATION;
+		case ABACUS_ERROR_UNSUPPORTED:
+			return ERRCODE_FEATURE_NOT_SUPPORTED;
 		case ABACUS_ERROR_INTERNAL:
 			break;
 	}

@@ -25,10 +25,10 @@ Check<D>::Check(const Host &host, const abacus_facts &facts, std::size_t cache_b
                     "The header counts more or fewer simplices than the pages hold.");
     const std::size_t before = faults_.size();
     check_links_and_points(together ? &*together : nullptr);
-    // If two pages differ about a vertex, the cache finds that while it has both. In a Delaunay
+    // If two pages differ about a vertex, the cache finds that while it has both. In a convex
     // mesh it has both at some time, since all pages around a vertex are loaded together. In other
     // meshes it may not, so faults found by several threads are reported as one thread finds them.
-    if (together && !abacus_is_delaunay(facts.standing) && faults_.size() > before) {
+    if (together && !abacus_is_convex(facts.standing) && faults_.size() > before) {
         faults_.shorten(before);
         check_links_and_points(nullptr);
     }
@@ -72,7 +72,7 @@ template <int D> void Check<D>::report(std::uint64_t pages, unsigned threads) {
 /// Checks the facts of a readable header that need not hold; capi/header.cpp has checked the rest.
 template <int D> void Check<D>::check_header() {
     const abacus_facts &h = facts_;
-    if (D == 2 && h.census.simplices > 0 && abacus_is_delaunay(h.standing) &&
+    if (D == 2 && h.census.simplices > 0 && abacus_is_convex(h.standing) &&
         h.census.simplices + h.census.ghosts + 2 != 2 * h.census.vertices)
         faults_.add("euler", first_key, "Vertices, triangles and hull edges do not add up.");
 }
@@ -107,7 +107,7 @@ template <int D> void Check<D>::check_topology() {
         report_some(++pages);
         return true;
     });
-    if (abacus_is_delaunay(facts_.standing)) check_stars(check.stars().counts());
+    if (abacus_is_convex(facts_.standing)) check_stars(check.stars().counts());
 }
 
 template <int D> void Check<D>::check_stars(const StarCounts &stars) {

@@ -166,7 +166,7 @@ template <int D> bool Check<D>::Together::check_topology() {
     if (!check_.host_.has_tiny_intervals()) parts = std::min(parts, threads * parts_a_thread);
     Topology pass(*this, threads, parts);
     if (!crew_.run(threads, parts, pass) || pass.has_fault()) return false;
-    if (abacus_is_delaunay(check_.facts_.standing)) check_.check_stars(pass.stars());
+    if (abacus_is_convex(check_.facts_.standing)) check_.check_stars(pass.stars());
     return true;
 }
 

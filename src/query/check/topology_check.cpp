@@ -7,7 +7,8 @@ namespace abacus {
 template <int D>
 TopologyCheck<D>::TopologyCheck(const Host &host, const abacus_facts &facts,
                                 std::size_t cache_bytes, FaultList &faults)
-    : is_delaunay_(abacus_is_delaunay(facts.standing)), faults_(faults),
+    : is_convex_(abacus_is_convex(facts.standing) != 0),
+      is_delaunay_(abacus_is_delaunay(facts.standing) != 0), faults_(faults),
       reader_(host, facts,
               {.budget = cache_bytes, .verify_links = true, .verify_checksums = false}),
       cache_(reader_.cache()), own_(cache_), stars_(cache_) {}
@@ -18,7 +19,7 @@ template <int D> Key TopologyCheck<D>::check_page(const Key &key) {
             faults_.add("key", "A simplex lies in a page that does not own its key.");
         check_simplex(h);
     });
-    if (is_delaunay_)
+    if (is_convex_)
         own_.collect(key, [&](VertexIndex v, const Arena<Handle> &star) {
             if (!stars_.add(v, star))
                 faults_.add("overlap", "Simplices wind around a vertex or an edge twice.");

@@ -129,13 +129,13 @@ template <int D> void LineScan<D>::each(const std::function<bool(const LinePiece
     if (reader_.is_empty()) return;
     visit_ = &visit;
     left_.reset();
-    if (reader_.is_delaunay())
+    if (reader_.is_convex())
         follow();
     else
         sweep();
 }
 
-// ---- Delaunay meshes -------------------------------------------------------------------
+// ---- Convex meshes ---------------------------------------------------------------------
 
 template <int D> void LineScan<D>::follow() {
     begin();

@@ -8,7 +8,7 @@
 
 namespace abacus {
 
-/// A box that contains the whole mesh. It is infinite if the mesh is not Delaunay, so that all
+/// A box that contains the whole mesh. It is infinite if the mesh is not convex, so that all
 /// pages would have to be read, or if its hull lies on a great many pages.
 template <int D>
 Box<D> hull_box(const Host &host, const abacus_facts &facts, std::size_t cache_bytes) {
@@ -17,7 +17,7 @@ Box<D> hull_box(const Host &host, const abacus_facts &facts, std::size_t cache_b
     everywhere.lower.fill(-std::numeric_limits<double>::infinity());
     everywhere.upper.fill(std::numeric_limits<double>::infinity());
     Reader<D> reader(host, facts, cache_bytes);
-    if (!reader.is_delaunay()) return everywhere;
+    if (!reader.is_convex()) return everywhere;
     Box<D> box;
     if (reader.is_empty()) return box;
     PageFlood<D> flood(host, facts);

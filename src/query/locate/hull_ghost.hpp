@@ -5,7 +5,7 @@
 
 namespace abacus {
 
-/// Some ghost of a Delaunay mesh that is not empty.
+/// Some ghost of a convex mesh that is not empty.
 template <int D> Handle hull_ghost(Reader<D> &reader) {
     Cache<D> &cache = reader.cache();
     Point<D> away;

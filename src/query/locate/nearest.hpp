@@ -17,6 +17,13 @@
 // A candidate that k others come before is dropped. So memory grows with k, and with the simplices
 // around what is found, which are in the cache.
 //
+// In a mesh with fixed edges a nearest vertex need have no nearer neighbour, but the simplices that
+// meet a ball around p are connected where the mesh is convex. So simplices are met in order of the
+// distance of the facet that leads to them, until the next one is farther away than the k-th
+// vertex. None is missed: take a vertex v within that distance, and one that was met. In the ball,
+// a straight way leads from it to v, and around each vertex on the way simplices are joined across
+// facets of that vertex; so all facets that are crossed meet the ball.
+//
 // In other meshes pages are read in order of the distance of their boxes, until the next one is
 // farther away than the k-th vertex.
 #pragma once
@@ -71,6 +78,7 @@ private:
 
     void search(const Point<D> &p, std::uint64_t k);
     void search_edges();
+    void search_outward();
     void search_pages();
     /// Visits the simplices around all vertices as far away as nearest_, and lets their corners
     /// compete. If one is nearer, it becomes nearest_, and the result is false.

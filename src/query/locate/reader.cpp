@@ -37,7 +37,7 @@ Reader<D>::Reader(const Host &host, const abacus_facts &facts, const CacheOption
                   bool in_order)
     : facts_(facts),
       size_(facts.census.simplices == 0 ? 0 : facts.census.simplices + facts.census.ghosts),
-      delaunay_(abacus_is_delaunay(facts.standing)), in_order_(in_order),
+      convex_(abacus_is_convex(facts.standing) != 0), in_order_(in_order),
       budget_(linked_as(facts, options).budget),
       vertex_values_(host, facts, options.budget / attributes_share),
       cache_(host, domain_of<D>(facts.form), page_attributes(facts.columns),
@@ -64,7 +64,7 @@ template <int D> Handle Reader<D>::find(const Point<D> &p, std::uint64_t code) {
     return from == no_handle ? no_handle : last_ = walk_.to(p, from, size_);
 }
 
-// ---- Meshes that are not Delaunay ----------------------------------------------------
+// ---- Meshes that are not convex ------------------------------------------------------
 
 template <int D> int Reader<D>::position(Handle h, const Point<D> &p) const {
     const Simplex<D> &s = cache_.simplex(h);
@@ -200,7 +200,7 @@ void Reader<D>::describe(Handle h, abacus_simplex &simplex, CornerValues *values
 template <int D>
 bool Reader<D>::locate(const Point<D> &p, abacus_simplex &simplex, CornerValues *values,
                        double max_edge) {
-    if (!delaunay_) {
+    if (!convex_) {
         // When the cache is full, a walk needs pages that were evicted; a search keeps other pages.
         const bool is_walk = !is_search_ && cache_.counters.evictions == 0;
         const Handle inside = is_walk ? walk_to_inside(p) : no_handle;
@@ -265,7 +265,7 @@ void Reader<D>::flood_around(const Point<D> &p, Handle h, Visit visit) {
 
 template <int D>
 void Reader<D>::containing(const Point<D> &p, const std::function<void(Handle)> &visit) {
-    if (!delaunay_) {
+    if (!convex_) {
         search(p, [&](Handle found) {
             visit(found);
             return true;
@@ -350,7 +350,7 @@ bool Reader<D>::walk(std::uint64_t code, const std::int64_t *ids, int facet,
 
 template <int D>
 void Reader<D>::star(const Point<D> &p, const std::function<void(const abacus_simplex &)> &visit) {
-    if (delaunay_)
+    if (convex_)
         return containing(p, [&](Handle h) {
             abacus_simplex simplex;
             describe(h, simplex);
@@ -366,7 +366,7 @@ void Reader<D>::star(const Point<D> &p, const std::function<void(const abacus_si
 }
 
 template <int D> std::optional<std::int64_t> Reader<D>::vertex_at(const Point<D> &p) {
-    if (!delaunay_) {
+    if (!convex_) {
         std::optional<std::int64_t> id;
         search_near(p, [&](const PageView<D> &view, int simplex) {
             for (int i = 0; i <= D && !id; ++i)

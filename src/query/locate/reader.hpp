@@ -1,7 +1,7 @@
 // Point location and walking over a stored mesh (dissertation §4.11.3), in a cache
 // that lives as long as the reader.
 //
-// In a mesh that is not Delaunay a walk may miss a point that the mesh contains: it ends at the
+// In a mesh that Abacus has not made a walk may miss a point that the mesh contains: it ends at the
 // border of a hole, and it may take too long. Then, and for a point on a facet, around which not
 // all simplices need be connected, all pages whose boxes contain the point are searched
 // (page_boxes.hpp, page_search.hpp). Such places come together; so after one of them the next is
@@ -57,21 +57,24 @@ public:
     /// Id of the vertex at p, if there is one.
     std::optional<std::int64_t> vertex_at(const Point<D> &p);
 
-    /// In a Delaunay mesh: the page of the simplex around p or, outside the hull, of a ghost that
-    /// has p strictly beyond its facet. None if the mesh is empty.
+    /// In a mesh with convex border: the page of the simplex around p or, outside the hull, of a
+    /// ghost that has p strictly beyond its facet. None if the mesh is empty.
     struct Around {
         Key page;
         bool is_inside;
     };
     std::optional<Around> page_around(const Point<D> &p);
 
-    /// In a Delaunay mesh: the simplex around p or, outside the hull, a ghost that has p strictly
-    /// beyond its facet; no_handle in an empty mesh. It stays until the next call.
+    /// In a mesh with convex border: the simplex around p or, outside the hull, a ghost that has p
+    /// strictly beyond its facet; no_handle in an empty mesh. It stays until the next call.
     Handle simplex_around(const Point<D> &p) { return find(p, cache_.domain().code(p)); }
-    /// In a mesh that is not Delaunay and not empty: where its pages are.
+    /// In a mesh that is not convex, and not empty: where its pages are.
     const PageBoxes<D> &boxes();
-    /// Whether the mesh is Delaunay: all of it can be reached by walking then.
-    bool is_delaunay() const { return delaunay_; }
+    /// Whether all of the mesh can be reached by walking: it fills its convex hull, and one can
+    /// walk around that.
+    bool is_convex() const { return convex_; }
+    /// Whether the mesh is Delaunay: nearest vertices are neighbours.
+    bool is_delaunay() const { return abacus_is_delaunay(facts_.standing) != 0; }
     bool is_empty() const { return size_ == 0; }
     /// Simplices and ghosts.
     std::uint64_t size() const { return size_; }
@@ -80,7 +83,7 @@ public:
     /// A flood over the cache, for use between two calls.
     Flood<D> &flood() { return around_; }
 
-    /// In a mesh that is not Delaunay: how many pages have this vertex, with its id and with the
+    /// In a mesh that is not convex: how many pages have this vertex, with its id and with the
     /// attributes that pages have.
     std::uint64_t pages_with(const std::uint64_t *vertex);
 
@@ -109,7 +112,7 @@ private:
     bool is_at_hand(std::uint64_t code) const {
         return cache_.is_live(last_) && cache_.near(last_, code);
     }
-    /// In a mesh that is not Delaunay: the simplex with p inside to which a short walk leads,
+    /// In a mesh that is not convex: the simplex with p inside to which a short walk leads,
     /// or no_handle.
     Handle walk_to_inside(const Point<D> &p);
     /// Calls visit(key) for the pages that may contain p, until it returns false; visit
@@ -141,7 +144,7 @@ private:
 
     const abacus_facts facts_;
     std::uint64_t size_; // simplices and ghosts
-    bool delaunay_;
+    bool convex_;
     const bool in_order_;
     /// The last place that a walk searched for was outside or on a facet, where a glance finds
     /// nothing.

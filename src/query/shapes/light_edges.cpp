@@ -37,7 +37,7 @@ template <int D> bool LightEdges<D>::is_longest(Handle h, int i, int j) {
         return is_longest(a, b, cache_.simplex(link_simplex(beyond)).vertex[link_facet(beyond)]);
     } else {
         // If ghosts are not linked, there is no way around an edge.
-        if (!reader_.is_delaunay()) return false;
+        if (!reader_.is_convex()) return false;
         turn_around<3>(cache_, h, {a, b}, [&](Handle, VertexIndex kept) {
             is_longest_of_one = is_longest_of_one || is_longest(a, b, kept);
         });

@@ -2,6 +2,7 @@
 
 #include "blocks/bit_column.hpp"
 #include "query/locate/hull_ghost.hpp"
+#include "query/locate/require_delaunay.hpp"
 #include "query/pages/page_flood.hpp"
 
 #include <algorithm>
@@ -17,9 +18,10 @@ Kept kept_by(const abacus_outline_kind &kind) {
 }
 
 template <int D> void require(const Reader<D> &reader, const abacus_outline_kind &kind) {
-    if (kind.has_alpha != 0 && !reader.is_delaunay())
-        throw Error(ABACUS_ERROR_STATE, "an alpha shape needs a Delaunay mesh", "",
-                    "Use abacus_hull with max_edge, or load the mesh with retriangulate => true.");
+    if (kind.has_alpha != 0)
+        require_delaunay(
+            reader, "an alpha shape needs",
+            "Use abacus_hull with max_edge, or load the mesh with retriangulate => true.");
 }
 
 } // namespace
@@ -54,7 +56,7 @@ Outline<3>::Outline(const Host &host, const abacus_facts &facts, const abacus_ou
     Reader<3> reader(host, facts, cache_bytes);
     require(reader, kind);
     const Kept kept = kept_by(kind);
-    if (!reader.is_empty() && kept.is_all() && reader.is_delaunay())
+    if (!reader.is_empty() && kept.is_all() && reader.is_convex())
         find_hull(host, facts, reader);
     else if (!reader.is_empty()) {
         if (kind.fills_holes != 0) cavities_.emplace(host, memory / 2);

@@ -91,7 +91,7 @@ std::size_t Rings::find_starts_of_page(const Key &page, Arena<Border::Edge> &edg
 }
 
 void Rings::find_starts(RecordSort &starts) {
-    if (!reader_.is_empty() && kept_.is_all() && reader_.is_delaunay()) {
+    if (!reader_.is_empty() && kept_.is_all() && reader_.is_convex()) {
         find_hull(starts);
     } else if (!reader_.is_empty()) {
         Arena<Border::Edge> edges(host_);

@@ -1,5 +1,6 @@
 #include "query/shapes/voronoi.hpp"
 
+#include "query/locate/require_delaunay.hpp"
 #include "query/pages/page_simplex.hpp"
 #include "query/shapes/ridge_turn.hpp"
 
@@ -36,9 +37,7 @@ Voronoi<D>::Voronoi(const Host &host, const abacus_facts &facts, const abacus_wi
     : host_(host), facts_(facts), reader_(host, facts, cache_bytes), cache_(reader_.cache()),
       open_(host), numbers_(host), star_(host), neighbours_(host), labels_(host), centres_(host),
       shape_(host) {
-    if (!reader_.is_delaunay())
-        throw Error(ABACUS_ERROR_STATE, "Voronoi cells need a Delaunay mesh", "",
-                    "Load the mesh with retriangulate => true.");
+    require_delaunay(reader_, "Voronoi cells need", "Load the mesh with retriangulate => true.");
     if (window.kind == ABACUS_BOX_WINDOW) {
         box_.emplace();
         std::copy_n(window.lower, D, box_->lower.begin());

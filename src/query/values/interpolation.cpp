@@ -1,10 +1,25 @@
 #include "query/values/interpolation.hpp"
 
 #include "query/locate/nearest.hpp"
+#include "query/locate/require_delaunay.hpp"
 #include "query/values/barycentric.hpp"
 #include "query/values/weighted_mean.hpp"
 
 namespace abacus {
+
+namespace {
+
+/// Throws if they are not known: of a mesh with lines not yet.
+template <int D> void require_natural_neighbours(const Reader<D> &reader) {
+    if (reader.is_convex() && !reader.is_delaunay())
+        throw Error(ABACUS_ERROR_UNSUPPORTED,
+                    "natural neighbours of a mesh with lines are not supported", fixed_edges,
+                    "Use the method linear.");
+    require_delaunay(reader, "natural neighbours need",
+                     "Use the method linear, or load the mesh with retriangulate => true.");
+}
+
+} // namespace
 
 template <int D>
 bool Interpolation<D>::weigh_corners(Reader<D> &reader, const abacus_interpolation &what,
@@ -21,9 +36,7 @@ bool Interpolation<D>::weigh_corners(Reader<D> &reader, const abacus_interpolati
 template <int D>
 bool Interpolation<D>::weigh_natural(Reader<D> &reader, const abacus_interpolation &what,
                                      const Point<D> &p) {
-    if (!reader.is_delaunay())
-        throw Error(ABACUS_ERROR_STATE, "natural neighbours need a Delaunay mesh", "",
-                    "Use the method linear, or load the mesh with retriangulate => true.");
+    require_natural_neighbours(reader);
     abacus_simplex simplex;
     if (what.max_edge != no_max_edge && !reader.locate(p, simplex, nullptr, what.max_edge))
         return false;

@@ -58,14 +58,14 @@ Overlaps::Overlaps(const Host &host, const abacus_facts &facts, std::uint32_t at
                    double max_edge, const Box<2> &window, std::size_t cache_bytes)
     : host_(host), facts_(facts), attribute_(static_cast<int>(attribute)), max_edge_(max_edge),
       window_(window), reader_(host, facts, cache_bytes) {
-    if (!reader_.is_delaunay())
+    if (!reader_.is_convex())
         search_.emplace(host, page_attributes(facts.columns), cache_bytes / 2);
 }
 
 // Follows the hull's edges, from one that is visible from far away.
 Box<2> Overlaps::around_all() {
     if (reader_.is_empty()) return {};
-    if (!reader_.is_delaunay()) return reader_.boxes().around_all();
+    if (!reader_.is_convex()) return reader_.boxes().around_all();
     constexpr double far = std::numeric_limits<double>::max();
     PageFlood<2> hull(host_, facts_);
     const PageView<2> &page = hull.page();

@@ -1,7 +1,7 @@
 // The triangles of a mesh that overlap a triangle of another one: their intersection has an area.
 // Exact.
 //
-// Let T be the triangle, without its border. In a Delaunay mesh a walk leads to a point strictly
+// Let T be the triangle, without its border. In a convex mesh a walk leads to a point strictly
 // inside of T. The simplex around it overlaps T, and from there a flood crosses each edge that has
 // points in T. It finds all of them. Those that overlap T fill its part in the mesh, which is
 // convex; without the vertices this is still connected; and a path in it leads from one triangle to
@@ -13,7 +13,7 @@
 // and crosses every edge that T's box meets, which is more than necessary.
 //
 // A flood holds what it meets in the cache. So beyond a certain number the pages are read one after
-// the other instead (range_scan.hpp). In a mesh that is not Delaunay, pages are found by their
+// the other instead (range_scan.hpp). In a mesh that is not convex, pages are found by their
 // boxes.
 //
 // A window leaves out triangles outside it where that saves work: some of them may still be found.

@@ -96,17 +96,20 @@ put_sizes(Figures *figures, const Reader *reader, Oid vertices)
 				   "simplex table and index, per simplex");
 }
 
-/* The kind of a mesh that is not Abacus' own, as abacus_load() found it. */
+/* The kind of a mesh: of one that is not Abacus' own, as abacus_load() found it. */
 static void
 put_delaunay(Figures *figures, abacus_delaunay delaunay)
 {
-	bool		is_own = delaunay == ABACUS_DELAUNAY;
+	bool		is_delaunay = abacus_is_delaunay(delaunay);
 
-	put_figure(figures, "delaunay", is_own || delaunay == ABACUS_WEAKLY_DELAUNAY ? 1 : 0,
-			   is_own ? "1: a Delaunay triangulation; 0: none" :
+	put_figure(figures, "delaunay", is_delaunay || delaunay == ABACUS_WEAKLY_DELAUNAY ? 1 : 0,
+			   is_delaunay ? "1: a Delaunay triangulation; 0: none" :
 			   psprintf("1: a Delaunay triangulation; 0: none. %s",
 						abacus_delaunay_reason(delaunay)));
-	put_figure(figures, "changeable", is_own ? 1 : 0,
+	if (delaunay == ABACUS_CONSTRAINED)
+		put_figure(figures, "constrained", 1,
+				   "1: Delaunay but for the edges of its lines, which are fixed");
+	put_figure(figures, "changeable", abacus_is_editable(delaunay) ? 1 : 0,
 			   "1: the Delaunay triangulation that Abacus makes, which can be changed; 0: loaded, "
 			   "and another one");
 }
@@ -176,7 +179,7 @@ put_counts(Figures *figures, const abacus_facts *facts)
 			   "points in the triangulation that equal an earlier one");
 	put_figure(figures, "simplices", (double) facts->census.simplices, "simplices of the mesh");
 	put_figure(figures, "hull_facets", (double) facts->census.ghosts,
-			   abacus_is_delaunay(facts->standing) ? "facets of its convex hull"
+			   abacus_is_convex(facts->standing) ? "facets of its convex hull"
 			   : "facets of its boundary");
 	put_figure(figures, "outside", (double) facts->census.outside,
 			   "points that the domain does not fit, since it was last chosen");

@@ -1,0 +1,250 @@
+/*
+ * fn_crossings.c: abacus_crossings, where segments of lines cross elsewhere than in a vertex.
+ *
+ * The query gives corners of lines, in any order; the core sorts them. A crossing is left out only
+ * if it is exactly at a vertex of the mesh, so that no place is rounded there.
+ */
+#include "postgres.h"
+
+#include <math.h>
+
+#include "catalog/pg_type.h"
+#include "funcapi.h"
+#include "utils/builtins.h"
+#include "utils/lsyscache.h"
+
+#include "abacus/crossings.h"
+#include "pg/base/settings.h"
+#include "pg/base/sql_function.h"
+#include "pg/input/source.h"
+#include "pg/mesh/mesh_cache.h"
+
+SQL_FUNCTION(abacus_sql_crossings);
+
+/* Columns of the query. Those of abacus_constrain() have the point's id before x. */
+enum
+{
+	CORNER_LINE,
+	CORNER_POSITION,
+	CORNER_X,
+	CORNER_Y,
+	CORNER_COLUMNS
+};
+
+/* Columns of the result */
+enum
+{
+	CROSSING_LINE_A,
+	CROSSING_POSITION_A,
+	CROSSING_LINE_B,
+	CROSSING_POSITION_B,
+	CROSSING_X,
+	CROSSING_Y,
+	CROSSING_COLUMNS
+};
+
+#define ROWS_A_BATCH 1024
+
+static const char *const corner_columns[CORNER_COLUMNS] = {"line", "position", "x", "y"};
+
+/* The rows of a query, as corners of lines. */
+typedef struct Corners
+{
+	TupleDesc	desc;
+	int			at[CORNER_COLUMNS]; /* their columns, from 1 on */
+	Oid			type[CORNER_COLUMNS];
+	uint64		row;			/* rows seen */
+} Corners;
+
+static bool
+is_integer(Oid type)
+{
+	return type == INT2OID || type == INT4OID || type == INT8OID;
+}
+
+static bool
+is_number(Oid type)
+{
+	return is_integer(type) || type == FLOAT4OID || type == FLOAT8OID || type == NUMERICOID;
+}
+
+/* Finds the columns, and checks their types. */
+static void
+corners_begin(Corners *corners, TupleDesc desc)
+{
+	corners->desc = desc;
+	corners->row = 0;
+	if (desc->natts < CORNER_COLUMNS)
+		ereport(ERROR,
+				(errcode(ERRCODE_DATATYPE_MISMATCH),
+				 errmsg("source query returns %d columns, but lines take at least %d", desc->natts,
+						CORNER_COLUMNS),
+				 errdetail("Columns are matched by position: line, position, x, y, or line, "
+						   "position, point, x, y.")));
+	for (int i = 0; i < CORNER_COLUMNS; i++)
+	{
+		bool		is_id = i < CORNER_X;
+		int			column = i + 1 + (!is_id && desc->natts > CORNER_COLUMNS);
+		Oid			type = TupleDescAttr(desc, column - 1)->atttypid;
+
+		corners->at[i] = column;
+		corners->type[i] = getBaseType(type);
+		if (is_id ? is_integer(corners->type[i]) : is_number(corners->type[i]))
+			continue;
+		ereport(ERROR,
+				(errcode(ERRCODE_DATATYPE_MISMATCH),
+				 errmsg("column %d (%s) of the source query has type %s", column, corner_columns[i],
+						format_type_be(type)),
+				 is_id ? errdetail("Lines and positions must be smallint, integer or bigint.")
+				 : errdetail("Coordinates must be double precision, real, numeric or integers."),
+				 errhint("Cast the column in the query.")));
+	}
+}
+
+static int64
+to_integer(Oid type, Datum value)
+{
+	return type == INT8OID ? DatumGetInt64(value)
+		: type == INT4OID ? DatumGetInt32(value) : DatumGetInt16(value);
+}
+
+static double
+to_double(Oid type, Datum value)
+{
+	switch (type)
+	{
+		case FLOAT8OID:
+			return DatumGetFloat8(value);
+		case FLOAT4OID:
+			return DatumGetFloat4(value);
+		case NUMERICOID:
+			return DatumGetFloat8(DirectFunctionCall1(numeric_float8_no_overflow, value));
+		default:
+			return (double) to_integer(type, value);
+	}
+}
+
+/* The record of a row for abacus_crossings_add_corners(). */
+static void
+pack_corner(Corners *corners, HeapTuple row, uint64 *record)
+{
+	corners->row++;
+	for (int i = 0; i < CORNER_COLUMNS; i++)
+	{
+		bool		isnull;
+		Datum		value = heap_getattr(row, corners->at[i], corners->desc, &isnull);
+		double		number;
+
+		if (isnull)
+			ereport(ERROR,
+					(errcode(ERRCODE_NULL_VALUE_NOT_ALLOWED),
+					 errmsg("%s is NULL in row " UINT64_FORMAT " of the source query",
+							corner_columns[i], corners->row),
+					 errhint("Leave such rows out with a WHERE clause.")));
+		if (i < CORNER_X)
+		{
+			record[i] = (uint64) to_integer(corners->type[i], value);
+			continue;
+		}
+		number = to_double(corners->type[i], value);
+		if (!isfinite(number))
+			ereport(ERROR,
+					(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+					 errmsg("%s of line " INT64_FORMAT ", position " INT64_FORMAT " is not finite",
+							corner_columns[i], (int64) record[CORNER_LINE],
+							(int64) record[CORNER_POSITION]),
+					 errhint("Leave such rows out with a WHERE clause.")));
+		memcpy(&record[i], &number, sizeof(number));
+	}
+}
+
+/* Gives the rows of a prepared query to the core. */
+static void
+read_corners(Source *source, Host *host, abacus_crossings *crossings)
+{
+	Portal		portal = SPI_cursor_open(NULL, source->plan, NULL, NULL, true);
+	uint64	   *records = palloc(ROWS_A_BATCH * CORNER_COLUMNS * sizeof(uint64));
+	Corners		corners;
+
+	corners_begin(&corners, portal->tupDesc);
+	for (;;)
+	{
+		uint64		count;
+
+		SPI_cursor_fetch(portal, true, ROWS_A_BATCH);
+		count = SPI_processed;
+		if (count == 0)
+			break;
+		for (uint64 i = 0; i < count; i++)
+			pack_corner(&corners, SPI_tuptable->vals[i], records + i * CORNER_COLUMNS);
+		SPI_freetuptable(SPI_tuptable);
+		host_run(host, abacus_crossings_add_corners, crossings, records, count);
+	}
+	SPI_freetuptable(SPI_tuptable);
+	SPI_cursor_close(portal);
+	pfree(records);
+}
+
+/* The mesh, for its vertices; only a mesh in the plane has lines. */
+static CachedMesh *
+get_mesh(Oid mesh)
+{
+	CachedMesh *cached = mesh_cache_get(mesh);
+
+	header_require_dimension(&cached->header.facts.form, 2, "Lines cross in the plane.");
+	return cached;
+}
+
+static bool
+is_vertex(CachedMesh *cached, const double *place)
+{
+	int64_t		id;
+
+	return host_run(cached->host, abacus_mesh_vertex_at, cached->mesh, place, &id) == ABACUS_OK;
+}
+
+static void
+put_crossing(ReturnSetInfo *set, const abacus_crossing *crossing)
+{
+	Datum		values[CROSSING_COLUMNS];
+	bool		isnull[CROSSING_COLUMNS] = {false};
+
+	values[CROSSING_LINE_A] = Int64GetDatum(crossing->line[0]);
+	values[CROSSING_POSITION_A] = Int64GetDatum(crossing->position[0]);
+	values[CROSSING_LINE_B] = Int64GetDatum(crossing->line[1]);
+	values[CROSSING_POSITION_B] = Int64GetDatum(crossing->position[1]);
+	values[CROSSING_X] = Float8GetDatum(crossing->place[0]);
+	values[CROSSING_Y] = Float8GetDatum(crossing->place[1]);
+	tuplestore_putvalues(set->setResult, set->setDesc, values, isnull);
+}
+
+/*
+ * abacus_crossings(mesh regclass, query text)
+ *     -> line_a, position_a, line_b, position_b, x, y
+ */
+Datum
+abacus_sql_crossings(PG_FUNCTION_ARGS)
+{
+	ReturnSetInfo *set = (ReturnSetInfo *) fcinfo->resultinfo;
+	Host	   *host;
+	CachedMesh *cached;
+	Source		source;
+	abacus_crossings *crossings = NULL;
+	abacus_crossing crossing;
+
+	InitMaterializedSRF(fcinfo, 0);
+	source_prepare(&source, text_to_cstring(PG_GETARG_TEXT_PP(1)));
+	host_release(get_mesh(PG_GETARG_OID(0))->host);
+	host = host_create(CurrentMemoryContext);
+	host_run(host, abacus_crossings_open, &host->table, setting_query_sort_bytes(), &crossings);
+	host_own(host, crossings, (void (*) (void *)) abacus_crossings_close);
+	read_corners(&source, host, crossings);
+	cached = get_mesh(PG_GETARG_OID(0)); /* anew, since the query may have read meshes */
+	while (host_run(host, abacus_crossings_next, crossings, &crossing) == ABACUS_OK)
+		if (!crossing.is_exact || !is_vertex(cached, crossing.place))
+			put_crossing(set, &crossing);
+	host_release(cached->host);
+	host_destroy(host);
+	source_finish(&source);
+	PG_RETURN_NULL();
+}
