@@ -23,6 +23,8 @@ Check<D>::Check(const Host &host, const abacus_facts &facts, std::size_t cache_b
     if (counts_.simplices != facts_.census.simplices || counts_.ghosts != facts_.census.ghosts)
         faults_.add("count", first_key,
                     "The header counts more or fewer simplices than the pages hold.");
+    if (counts_.fixed > 0 && facts_.standing != ABACUS_CONSTRAINED)
+        faults_.add("fixed", first_key, "A mesh without lines has fixed edges.");
     const std::size_t before = faults_.size();
     check_links_and_points(together ? &*together : nullptr);
     // If two pages differ about a vertex, the cache finds that while it has both. In a convex

@@ -8,9 +8,9 @@
 //             positively oriented; the boxes of patches fit; the counts add up
 //   topology  every link leads, by its stored key, to the simplex with the same facet
 //             in the opposite orientation; pages agree about the vertices they share;
-//             across every facet the empty-sphere criterion holds under the
-//             perturbation, and the hull is convex; simplices wind once around vertices and edges,
-//             and form one piece
+//             across every facet that is not fixed the empty-sphere criterion holds under
+//             the perturbation, both sides say whether it is fixed, and the hull is convex;
+//             simplices wind once around vertices and edges, and form one piece
 //   points    every repeated point equals a vertex; the sequence of those that wait is
 //             whole; the counts add up
 //
@@ -30,8 +30,9 @@
 // attributes or, by a little, its place has changed. The other passes do not depend on the
 // checksum, and detect all other changes.
 //
-// A mesh that is locally Delaunay across every facet is globally Delaunay (Delaunay 1934), and
-// under the perturbation unique, if no place is covered twice: see query/check/stars.hpp.
+// A mesh that is locally Delaunay across every facet is globally Delaunay (Delaunay 1934), or,
+// across every facet that is not fixed, constrained Delaunay (Lee and Lin 1986), and under the
+// perturbation unique, if no place is covered twice: see query/check/stars.hpp.
 //
 // In a large mesh several threads check pages and follow links (check_threads.cpp).
 #pragma once
@@ -57,6 +58,8 @@ public:
     bool next(abacus_fault &fault) { return faults_.next(fault); }
     /// Simplices that are flat in doubles, which is not a fault.
     std::uint64_t flat() const { return counts_.flat; }
+    /// Fixed edges, of a constrained mesh.
+    std::uint64_t fixed() const { return counts_.fixed / 2; }
 
 private:
     class Together;

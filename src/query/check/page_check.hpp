@@ -20,12 +20,14 @@ public:
     struct Counts {
         std::uint64_t simplices = 0, ghosts = 0;
         std::uint64_t flat = 0;     ///< of the simplices, in doubles (geometry/flatness.hpp)
+        std::uint64_t fixed = 0;    ///< facets that are fixed, on each side
         std::uint64_t vertices = 0; ///< of all pages: a vertex on several pages counts for each
 
         Counts &operator+=(const Counts &more) {
             simplices += more.simplices;
             ghosts += more.ghosts;
             flat += more.flat;
+            fixed += more.fixed;
             vertices += more.vertices;
             return *this;
         }

@@ -8,7 +8,7 @@ template <int D>
 TopologyCheck<D>::TopologyCheck(const Host &host, const abacus_facts &facts,
                                 std::size_t cache_bytes, FaultList &faults)
     : is_convex_(abacus_is_convex(facts.standing) != 0),
-      is_delaunay_(abacus_is_delaunay(facts.standing) != 0), faults_(faults),
+      is_own_(abacus_is_own(facts.standing) != 0), faults_(faults),
       reader_(host, facts,
               {.budget = cache_bytes, .verify_links = true, .verify_checksums = false}),
       cache_(reader_.cache()), own_(cache_), stars_(cache_) {}
@@ -34,7 +34,7 @@ template <int D> void TopologyCheck<D>::check_simplex(Handle h) {
         const Link link = cache_.cross(h, i); // throws unless it leads to a true neighbour
         const Simplex<D> &neighbour = cache_.simplex(link_simplex(link));
         const VertexIndex opposite = neighbour.vertex[link_facet(link)];
-        if (opposite == infinite_vertex || !is_delaunay_) continue;
+        if (opposite == infinite_vertex || !is_own_ || cache_.is_fixed(make_link(h, i))) continue;
         check_empty_sphere(cache_.simplex(h), cache_.point(opposite));
     }
 }

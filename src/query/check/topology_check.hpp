@@ -31,7 +31,7 @@ private:
     void check_simplex(Handle h);
     void check_empty_sphere(const Simplex<D> &s, const Point<D> &opposite);
 
-    const bool is_convex_, is_delaunay_;
+    const bool is_convex_, is_own_;
     FaultList &faults_;
     Reader<D> reader_;
     Cache<D> &cache_;
