@@ -42,16 +42,3 @@ AS 'MODULE_PATHNAME', 'abacus_sql_lines'
 LANGUAGE C STABLE STRICT PARALLEL SAFE COST 1000 ROWS 1000;
 COMMENT ON FUNCTION abacus_lines(regclass) IS
     'the lines of a mesh as they were given, in the order of line and position. A mesh that never had lines has none. Units: x and y in those of the coordinates. Errors: 42809 not a mesh, 42501 no privilege on the table of lines';
-
-CREATE FUNCTION abacus_fixed_edges(
-    mesh regclass,
-    OUT v0 bigint,
-    OUT v1 bigint,
-    OUT length double precision,
-    OUT lines bigint[],
-    OUT kind text)
-RETURNS SETOF record
-AS 'MODULE_PATHNAME', 'abacus_sql_fixed_edges'
-LANGUAGE C STABLE STRICT PARALLEL SAFE COST 10000 ROWS 1000;
-COMMENT ON FUNCTION abacus_fixed_edges(regclass) IS
-    'the fixed edges of a mesh, each once, with the lines that they are on. kind is hard if one of the lines is. Units: length in those of the coordinates. Errors: those of abacus_lines; XX001 a line that lacks an edge';

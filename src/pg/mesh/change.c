@@ -189,6 +189,21 @@ change_stage(Change *change)
 }
 
 /*
+ * Inserts points that wait, if lines wait with them, and fixes their edges: what follows frees edges
+ * or deletes points.
+ */
+static void
+settle_lines(Change *change)
+{
+	const abacus_census *census = &change->writer.header->facts.census;
+
+	if (census->lines_wait == 0)
+		return;
+	host_run(change->writer.host, abacus_build_run, change->build, 0, change->writer.header);
+	mesh_lines_fix_waiting(&change->writer, change->build, &change->fixed);
+}
+
+/*
  * Removes the points of the stage; with `exactly`, only points with the same id and attributes.
  * Returns how many there were.
  */
@@ -199,6 +214,7 @@ change_delete(Change *change, bool exactly)
 	uint64		deleted;
 
 	change_open_build(change);
+	settle_lines(change);
 	host_run(host, abacus_build_delete, change->build, change->stage, exactly,
 			 change->writer.header, &deleted);
 	return deleted;
@@ -217,6 +233,7 @@ change_update(Change *change, const uint32 *attributes, size_t count, bool exact
 	uint64		updated;
 
 	change_open_build(change);
+	settle_lines(change);
 	host_run(host, abacus_build_update, change->build, change->stage, attributes, count, exactly,
 			 change->writer.header, &updated, missing);
 	return updated;
@@ -286,11 +303,7 @@ change_unfix(Change *change)
 	abacus_header *header = change->writer.header;
 
 	change_open_build(change);
-	if (header->facts.census.lines_wait > 0)
-	{
-		host_run(host, abacus_build_run, change->build, 0, header);
-		mesh_lines_fix_waiting(&change->writer, change->build, &change->fixed);
-	}
+	settle_lines(change);
 	if (header->facts.census.vertices > 0)
 		host_run(host, abacus_build_unfix, change->build, change->freed, header);
 	abacus_segments_close(change->freed);

@@ -7,13 +7,13 @@
  */
 #include "postgres.h"
 
+#include "access/xact.h"
 #include "catalog/pg_class.h"
 #include "miscadmin.h"
 #include "utils/acl.h"
 #include "utils/builtins.h"
 #include "utils/lsyscache.h"
 
-#include "pg/base/utility.h"
 #include "pg/mesh/lines_table.h"
 #include "pg/mesh/new_table.h"
 #include "pg/port/port.h"
@@ -47,47 +47,62 @@ check_may_make(Relation mesh, const char *name)
 	new_table_check_name(RelationGetNamespace(mesh), name);
 }
 
-/* Runs CREATE TABLE and CREATE INDEX as the owner of the mesh, who will own the table as well. */
+/* Runs CREATE as the owner of the mesh, who will own the table as well. */
 static void
-create(Relation mesh, const char *name, Oid row)
+create(Relation mesh, const char *command, const char *name)
 {
-	char	   *table = quote_qualified_identifier(get_namespace_name(RelationGetNamespace(mesh)), name);
-	char	   *type = quote_qualified_identifier(get_namespace_name(get_rel_namespace(row)), LINE_POINT_TYPE);
 	Oid			user;
 	int			security;
 
 	GetUserIdAndSecContext(&user, &security);
 	if (mesh->rd_rel->relowner != user)
 		SetUserIdAndSecContext(mesh->rd_rel->relowner, security | SECURITY_LOCAL_USERID_CHANGE);
-	new_table_create(psprintf("CREATE %sTABLE %s OF %s (point WITH OPTIONS NOT NULL, "
-							  "x WITH OPTIONS NOT NULL, y WITH OPTIONS NOT NULL, "
-							  "kind WITH OPTIONS NOT NULL, PRIMARY KEY (line, position)) USING heap",
-							  mesh->rd_rel->relpersistence == RELPERSISTENCE_UNLOGGED ? "UNLOGGED " : "",
-							  table, type),
-					 name);
-	utility_run(psprintf("CREATE INDEX ON %s (x, y)", table));
+	new_table_create(command, name);
 	SetUserIdAndSecContext(user, security);
 }
 
-/* The table of the lines of a mesh that gets lines; makes it if there is none. */
+/*
+ * The table of the lines of a mesh that gets lines. If there is none, makes it, without the index
+ * on places.
+ */
 Oid
-lines_table_make(Relation mesh)
+lines_table_make(Relation mesh, bool *is_new)
 {
+	Oid			schema = RelationGetNamespace(mesh);
 	Oid			table = mesh_lines_table(mesh, MESH_WRITE);
 	char	   *name;
+	Oid			type_schema;
 	Oid			row;
 
-	if (OidIsValid(table))
+	*is_new = !OidIsValid(table);
+	if (!*is_new)
 		return table;
 	name = psprintf("%s" LINES_TABLE_SUFFIX, RelationGetRelationName(mesh));
 	check_may_make(mesh, name);
-	row = get_relname_relid(LINE_POINT_TYPE,
-							get_rel_namespace(get_typ_typrelid(mesh->rd_rel->reloftype)));
-	create(mesh, name, row);
-	table = new_table_id(RelationGetNamespace(mesh), name);
+	type_schema = get_rel_namespace(get_typ_typrelid(mesh->rd_rel->reloftype));
+	row = get_relname_relid(LINE_POINT_TYPE, type_schema);
+	create(mesh,
+		   psprintf("CREATE %sTABLE %s OF %s (point WITH OPTIONS NOT NULL, x WITH OPTIONS NOT NULL, "
+					"y WITH OPTIONS NOT NULL, kind WITH OPTIONS NOT NULL, PRIMARY KEY (line, position)) "
+					"USING heap",
+					mesh->rd_rel->relpersistence == RELPERSISTENCE_UNLOGGED ? "UNLOGGED " : "",
+					quote_qualified_identifier(get_namespace_name(schema), name),
+					quote_qualified_identifier(get_namespace_name(type_schema), LINE_POINT_TYPE)),
+		   name);
+	table = new_table_id(schema, name);
 	new_table_describe(table, "lines of a mesh: see abacus_lines()", row, LINE_POINT_COLUMNS);
 	mesh_bind_table(RelationGetRelid(mesh), table);
+	CommandCounterIncrement();
 	return table;
+}
+
+/* Makes the index on places: of a new table when it has its first rows, which is faster. */
+void
+lines_table_index(Relation mesh)
+{
+	Oid			table = mesh_lines_table(mesh, MESH_WRITE);
+
+	create(mesh, psprintf("CREATE INDEX ON %s (x, y)", lines_table_name(table)), get_rel_name(table));
 }
 
 /* The table of the lines of a mesh that has lines, so it must be there. */

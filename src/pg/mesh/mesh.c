@@ -324,8 +324,27 @@ may_bind(Relation mesh, Oid relid, MeshAccess access)
 }
 
 /*
- * The table of the mesh's vertex pages, locked and checked; a writer binds it if it is not bound.
+ * The table of the mesh's lines, locked and checked; InvalidOid if there is none. A writer binds it
+ * if it is not bound.
  */
+Oid
+mesh_lines_table(Relation mesh, MeshAccess access)
+{
+	bool		bound;
+	Relation	rel = open_side_table(mesh, &lines_side, access, &bound);
+	Oid			relid;
+
+	if (rel == NULL)
+		return InvalidOid;
+	mesh_check_lines_access(rel, access, mesh);
+	relid = RelationGetRelid(rel);
+	if (!bound && may_bind(mesh, relid, access))
+		mesh_bind_table(RelationGetRelid(mesh), relid);
+	relation_close(rel, NoLock);
+	return relid;
+}
+
+/* The same for the table of its vertex pages, which must be there. */
 Oid
 mesh_vertex_table(Relation mesh, MeshAccess access)
 {
@@ -346,27 +365,10 @@ mesh_vertex_table(Relation mesh, MeshAccess access)
 	if (!bound && may_bind(mesh, relid, access))
 	{
 		mesh_bind_table(RelationGetRelid(mesh), relid);
+		(void) mesh_lines_table(mesh, access);
 		if (on_restored != NULL)
 			on_restored(mesh);
 	}
-	relation_close(rel, NoLock);
-	return relid;
-}
-
-/* The same for the table of its lines; InvalidOid if there is none. */
-Oid
-mesh_lines_table(Relation mesh, MeshAccess access)
-{
-	bool		bound;
-	Relation	rel = open_side_table(mesh, &lines_side, access, &bound);
-	Oid			relid;
-
-	if (rel == NULL)
-		return InvalidOid;
-	mesh_check_lines_access(rel, access, mesh);
-	relid = RelationGetRelid(rel);
-	if (!bound && may_bind(mesh, relid, access))
-		mesh_bind_table(RelationGetRelid(mesh), relid);
 	relation_close(rel, NoLock);
 	return relid;
 }

@@ -215,24 +215,29 @@ add_lines(Change *change, const NewLines *lines, const char *kind, int existing)
 	bool		isnull;
 	uint64		replaced = 0;
 	char	   *table;
-	int			level = plain_names_begin();
+	bool		is_new;
+	NamedRows  *points;
+	int			level = plain_names_begin(true);
 
 	line_points_check(lines);
-	line_points_find(lines);
+	points = line_points_find(lines);
 	query_first("SELECT count(*) FROM (SELECT DISTINCT line FROM " LINE_ROWS ") AS s", &count, &isnull, 1);
 	plain_names_end(level);
-	table = lines_table_name(lines_table_make(mesh_of(change)));
-	level = plain_names_begin();
+	table = lines_table_name(lines_table_make(mesh_of(change), &is_new));
+	level = plain_names_begin(true);
 	if (existing == EXISTING_ERROR)
 		refuse_existing(table);
 	else
 		replaced = delete_lines(change, table, "SELECT line FROM " LINE_ROWS);
 	query_run(psprintf("INSERT INTO %s (line, position, point, x, y, kind) SELECT line, position, point, x, y, "
 					   "'%s' FROM " LINE_POINTS " ORDER BY line, position", table, kind));
+	if (is_new)
+		lines_table_index(mesh_of(change));
 	change_lines(change, DatumGetInt64(count) - (int64) replaced);
 	insert_points(change);
 	change_edges(change);
 	plain_names_end(level);
+	named_rows_free(points);
 	return (uint64) DatumGetInt64(count);
 }
 
@@ -245,14 +250,16 @@ constrain(Change *change, Source *source, const char *vertices, const char *kind
 	uint64		count;
 
 	check_mesh(change);
-	rows = line_rows_read(source, lines.names, &lines.has_places, &lines.has_attributes);
+	rows = line_rows_read(source, lines.names, &lines.shape);
 	if (rows->count == 0)
 	{
+		named_rows_free(rows);
 		change_abandon(change);
 		return 0;
 	}
 	named_rows_register(rows);
 	count = add_lines(change, &lines, kind, existing);
+	named_rows_free(rows);
 	tell_of_waiting(change);
 	change_end(change);
 	return count;
@@ -311,7 +318,7 @@ remove_lines(Change *change)
 	uint64		gone = 0;
 	Datum		ids;
 	bool		isnull;
-	int			level = plain_names_begin();
+	int			level = plain_names_begin(true);
 
 	query_first("SELECT count(DISTINCT line) FROM " LINE_IDS, &ids, &isnull, 1);
 	if (OidIsValid(table))
@@ -346,6 +353,7 @@ abacus_sql_unconstrain(PG_FUNCTION_ARGS)
 		change_end(change);
 	else
 		change_abandon(change);
+	named_rows_free(ids);
 	source_finish(&source);
 	PG_RETURN_INT64((int64) gone);
 }

@@ -93,31 +93,32 @@ void
 line_points_check(const NewLines *lines)
 {
 	check_positions();
-	if (lines->has_places)
+	if (lines->shape.has_places)
 		check_ids();
 }
 
 /* ---- Points of the mesh -------------------------------------------------------------- */
 
 /* Finds the points of the mesh with the ids of rows, or at their places. */
-static void
+static NamedRows *
 find(const NewLines *lines)
 {
 	static const NamedColumn columns[] = {
 		{"id", INT8OID}, {"x", FLOAT8OID}, {"y", FLOAT8OID}, {"vertex", INT8OID},
 		{"sequence", INT8OID}, {"attributes", FLOAT8ARRAYOID}, {"by_id", BOOLOID}
 	};
-	const char *attributes = lines->has_attributes ? "v.attributes" : "NULL::float8[]";
+	const char *attributes = lines->shape.has_attributes ? "v.attributes" : "NULL::float8[]";
 
-	named_rows_of_query(FOUND, columns, lengthof(columns), lines->has_places
-						? psprintf("SELECT v.id, v.x, v.y, v.vertex, v.sequence, %s, g.point IS NOT NULL "
-								   "FROM %s AS v "
-								   "LEFT JOIN (SELECT DISTINCT point FROM " LINE_ROWS ") AS g ON g.point = v.id "
-								   "LEFT JOIN (SELECT DISTINCT x, y FROM " LINE_ROWS ") AS p ON p.x = v.x AND p.y = v.y "
-								   "WHERE g.point IS NOT NULL OR p.x IS NOT NULL", attributes, lines->vertices)
-						: psprintf("SELECT v.id, v.x, v.y, v.vertex, v.sequence, NULL::float8[], true "
-								   "FROM %s AS v JOIN (SELECT DISTINCT point FROM " LINE_ROWS ") AS g "
-								   "ON g.point = v.id", lines->vertices));
+	const char *query = lines->shape.has_nameless || lines->shape.has_attributes
+		? "SELECT v.id, v.x, v.y, v.vertex, v.sequence, %s, g.point IS NOT NULL FROM %s AS v "
+		"LEFT JOIN (SELECT DISTINCT point FROM " LINE_ROWS ") AS g ON g.point = v.id "
+		"LEFT JOIN (SELECT DISTINCT x, y FROM " LINE_ROWS ") AS p ON p.x = v.x AND p.y = v.y "
+		"WHERE g.point IS NOT NULL OR p.x IS NOT NULL"
+		: "SELECT v.id, v.x, v.y, v.vertex, v.sequence, %s, true FROM %s AS v "
+		"JOIN (SELECT DISTINCT point FROM " LINE_ROWS ") AS g ON g.point = v.id";
+
+	return named_rows_of_query(FOUND, columns, lengthof(columns),
+							   psprintf(query, attributes, lines->vertices));
 }
 
 /* An id that the mesh has at two places. */
@@ -220,22 +221,23 @@ check_attributes(const NewLines *lines)
 
 /* ---- Points of the lines ----------------------------------------------------------------- */
 
-/* The id above which new ids begin, if any row needs one: in SQL. */
-static char *
+/* The id above which new ids begin. */
+static int64
 greatest_id(const NewLines *lines)
 {
 	Datum		value;
 	bool		isnull;
 
-	if (!query_first("SELECT 1::bigint FROM " LINE_ROWS " AS g WHERE g.point IS NULL LIMIT 1", &value, &isnull, 1))
-		return "0";
 	query_first(psprintf("SELECT greatest((SELECT max(v.id) FROM %s AS v), (SELECT max(g.point) FROM " LINE_ROWS
 						 " AS g))", lines->vertices), &value, &isnull, 1);
-	return isnull ? "0" : psprintf("'" INT64_FORMAT "'", DatumGetInt64(value));
+	return isnull ? 0 : DatumGetInt64(value);
 }
 
-/* The points of lines whose rows have places. */
-static char *
+/*
+ * The points of lines whose rows have places, if some have no id. The vertex at the place is meant,
+ * or else the first point that a row names there, or else a new one.
+ */
+static const char *
 points_by_place(const NewLines *lines)
 {
 	return psprintf(
@@ -249,12 +251,27 @@ points_by_place(const NewLines *lines)
 		" FROM nameless AS n LEFT JOIN there ON there.x = n.x AND there.y = n.y "
 		" LEFT JOIN named ON named.x = n.x AND named.y = n.y), "
 		"numbered AS (SELECT x, y, id, false AS is_new FROM known WHERE id IS NOT NULL UNION ALL "
-		" SELECT x, y, %s::bigint + row_number() OVER (ORDER BY line, position), true FROM known WHERE id IS NULL) "
+		" SELECT x, y, '" INT64_FORMAT "'::bigint + row_number() OVER (ORDER BY line, position), true "
+		" FROM known WHERE id IS NULL) "
 		"SELECT g.line, g.position, coalesce(g.point, n.id), g.x, g.y, g.attributes, "
 		" CASE WHEN g.point IS NULL THEN n.is_new ELSE f.id IS NULL END "
 		"FROM " LINE_ROWS " AS g "
 		"LEFT JOIN numbered AS n ON g.point IS NULL AND n.x = g.x AND n.y = g.y "
-		"LEFT JOIN (SELECT DISTINCT id FROM " FOUND " WHERE by_id) AS f ON f.id = g.point", greatest_id(lines));
+		"LEFT JOIN (SELECT DISTINCT id FROM " FOUND " WHERE by_id) AS f ON f.id = g.point",
+		greatest_id(lines));
+}
+
+/* The query that finds the points of lines. */
+static const char *
+points_query(const NewLines *lines)
+{
+	if (lines->shape.has_nameless)
+		return points_by_place(lines);
+	return lines->shape.has_places
+		? "SELECT g.line, g.position, g.point, g.x, g.y, g.attributes, f.id IS NULL FROM " LINE_ROWS " AS g "
+		"LEFT JOIN (SELECT DISTINCT id FROM " FOUND " WHERE by_id) AS f ON f.id = g.point"
+		: "SELECT g.line, g.position, g.point, f.x, f.y, NULL::float8[], false FROM " LINE_ROWS " AS g "
+		"JOIN (SELECT DISTINCT id, x, y FROM " FOUND ") AS f ON f.id = g.point";
 }
 
 static void
@@ -275,27 +292,26 @@ check_lengths(void)
 				 errhint("Leave one of the two points out.")));
 }
 
-/* Finds the points of the lines in the mesh, or chooses new ids for them: registers LINE_POINTS. */
-void
+/* Finds the points of the lines in the mesh, or chooses new ids for them: LINE_POINTS. */
+NamedRows *
 line_points_find(const NewLines *lines)
 {
 	static const NamedColumn columns[] = {
 		{"line", INT8OID}, {"position", INT8OID}, {"point", INT8OID}, {"x", FLOAT8OID},
 		{"y", FLOAT8OID}, {"attributes", FLOAT8ARRAYOID}, {"is_new", BOOLOID}
 	};
-	const char *query;
+	NamedRows  *found = find(lines);
+	NamedRows  *points;
 
-	find(lines);
 	check_found_ids();
-	if (lines->has_places)
+	if (lines->shape.has_places)
 		check_places();
 	else
 		check_known();
-	if (lines->has_attributes)
+	if (lines->shape.has_attributes)
 		check_attributes(lines);
-	query = lines->has_places ? points_by_place(lines)
-		: "SELECT g.line, g.position, g.point, f.x, f.y, NULL::float8[], false FROM " LINE_ROWS " AS g "
-		"JOIN (SELECT DISTINCT id, x, y FROM " FOUND ") AS f ON f.id = g.point";
-	named_rows_of_query(LINE_POINTS, columns, lengthof(columns), query);
+	points = named_rows_of_query(LINE_POINTS, columns, lengthof(columns), points_query(lines));
+	named_rows_free(found);
 	check_lengths();
+	return points;
 }

@@ -15,11 +15,10 @@ typedef struct NewLines
 {
 	const char *vertices;		/* a call of abacus_vertices() for the mesh, in SQL */
 	abacus_names names;
-	bool		has_places;		/* rows have x and y */
-	bool		has_attributes;
+	LineShape	shape;
 } NewLines;
 
 extern void line_points_check(const NewLines *lines);
-extern void line_points_find(const NewLines *lines);
+extern NamedRows *line_points_find(const NewLines *lines);
 
 #endif

@@ -30,6 +30,7 @@ typedef struct LineReader
 	uint32	   *attributes;		/* of the columns after x and y: numbers in the mesh */
 	uint32		count;			/* attributes of the mesh */
 	uint64		row;			/* for messages */
+	bool		any_nameless;	/* so far */
 } LineReader;
 
 /* ---- Columns --------------------------------------------------------------------- */
@@ -188,7 +189,7 @@ refuse_text(const LineReader *reader, int column)
 
 /* Reads the ids of a row; which may be NULL depends on the shape of the rows. */
 static void
-read_ids(const LineReader *reader, HeapTuple tuple, bool has_places, Datum *values, bool *isnull)
+read_ids(LineReader *reader, HeapTuple tuple, bool has_places, Datum *values, bool *isnull)
 {
 	for (int i = 0; i < reader->ids; i++)
 	{
@@ -197,6 +198,7 @@ read_ids(const LineReader *reader, HeapTuple tuple, bool has_places, Datum *valu
 		{
 			if (!has_places || i != LINE_ROW_POINT)
 				refuse_null(reader, values, i);
+			reader->any_nameless = true;
 			continue;
 		}
 		if (!is_integer(reader->types[i]))
@@ -291,7 +293,7 @@ read_rows(LineReader *reader, Source *source, bool has_places)
 
 /* Reads the rows of a prepared query that gives lines for a mesh with these names. */
 NamedRows *
-line_rows_read(Source *source, abacus_names names, bool *has_places, bool *has_attributes)
+line_rows_read(Source *source, abacus_names names, LineShape *shape)
 {
 	static const NamedColumn columns[] = {
 		{"line", INT8OID}, {"position", INT8OID}, {"point", INT8OID}, {"x", FLOAT8OID},
@@ -303,13 +305,14 @@ line_rows_read(Source *source, abacus_names names, bool *has_places, bool *has_a
 	if (reader.desc->natts < 3 || reader.desc->natts == 4)
 		refuse_count(reader.desc->natts, "Rows of lines have three columns, or five and more.",
 					 "Return line, position and the id of a point; x, y and attributes may follow.");
-	*has_places = reader.desc->natts > reader.ids;
-	*has_attributes = reader.desc->natts > LINE_ROW_Y + 1;
+	shape->has_places = reader.desc->natts > reader.ids;
+	shape->has_attributes = reader.desc->natts > LINE_ROW_Y + 1;
 	check_types(&reader);
-	if (*has_places)
+	if (shape->has_places)
 		find_attributes(&reader, names);
 	reader.rows = named_rows_create(LINE_ROWS, columns, lengthof(columns));
-	read_rows(&reader, source, *has_places);
+	read_rows(&reader, source, shape->has_places);
+	shape->has_nameless = reader.any_nameless;
 	return reader.rows;
 }
 

@@ -21,11 +21,18 @@ enum
 	LINE_ROW_COLUMNS
 };
 
+/* What the rows of a query of lines have. */
+typedef struct LineShape
+{
+	bool		has_places;		/* x and y after the ids */
+	bool		has_nameless;	/* rows whose id is NULL */
+	bool		has_attributes;
+} LineShape;
+
 #define LINE_ROWS "abacus_given"
 #define LINE_IDS "abacus_lines_given"
 
-extern NamedRows *line_rows_read(Source *source, abacus_names names, bool *has_places,
-								 bool *has_attributes);
+extern NamedRows *line_rows_read(Source *source, abacus_names names, LineShape *shape);
 extern NamedRows *line_ids_read(Source *source);
 
 #endif

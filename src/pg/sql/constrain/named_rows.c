@@ -67,14 +67,37 @@ named_rows_of_query(const char *name, const NamedColumn *columns, int count, con
 	return rows;
 }
 
-/* Until plain_names_end(), names in queries are those of PostgreSQL, unless they have a schema. */
+/* Ends the rows, and their temporary file. Queries do not know them any more. */
+void
+named_rows_free(NamedRows *rows)
+{
+	(void) SPI_unregister_relation(rows->name); /* it may not be registered */
+	tuplestore_end(rows->store);
+	pfree(rows);
+}
+
+static void
+set(const char *setting, const char *value)
+{
+	(void) set_config_option(setting, value, PGC_USERSET, PGC_S_SESSION, GUC_ACTION_SAVE, true, 0,
+							 false);
+}
+
+/*
+ * Until plain_names_end(), names in queries are those of PostgreSQL, unless they have a schema. If
+ * the mesh is written, queries may use the memory of maintenance, as all its sorts do.
+ */
 int
-plain_names_begin(void)
+plain_names_begin(bool writes)
 {
 	int			level = NewGUCNestLevel();
 
-	(void) set_config_option("search_path", "pg_catalog, pg_temp", PGC_USERSET, PGC_S_SESSION,
-							 GUC_ACTION_SAVE, true, 0, false);
+	set("search_path", "pg_catalog, pg_temp");
+	if (writes)
+	{
+		set("jit", "off");
+		set("work_mem", psprintf("%d", Max(work_mem, maintenance_work_mem)));
+	}
 	return level;
 }
 

@@ -29,7 +29,9 @@ extern void named_rows_register(NamedRows *rows);
 extern NamedRows *named_rows_of_query(const char *name, const NamedColumn *columns, int count,
 									  const char *query);
 
-extern int	plain_names_begin(void);
+extern void named_rows_free(NamedRows *rows);
+
+extern int	plain_names_begin(bool writes);
 extern void plain_names_end(int level);
 
 extern uint64 query_into(Tuplestorestate *store, const char *query);
