@@ -207,41 +207,50 @@ CREATE FUNCTION abacus_edges(
     lower double precision[] DEFAULT NULL,
     upper double precision[] DEFAULT NULL,
     max_edge double precision DEFAULT NULL,
+    fixed boolean DEFAULT false,
     OUT v0 bigint,
     OUT v1 bigint,
-    OUT length double precision)
+    OUT length double precision,
+    OUT lines bigint[],
+    OUT kind text)
 RETURNS SETOF record
 AS 'MODULE_PATHNAME', 'abacus_sql_edges'
 LANGUAGE C STABLE PARALLEL SAFE COST 10000 ROWS 1000 SUPPORT abacus_window_rows;
-COMMENT ON FUNCTION abacus_edges(regclass, double precision[], double precision[], double precision) IS
-    'the edges of a mesh, or those that meet a window, each once. Shapes: lower and upper are {x, y}, in space {x, y, z}. Units: lower, upper, max_edge and length in those of the coordinates. Errors: 22023 a bad window or max_edge, 2202E an array of another length than the dimension';
+COMMENT ON FUNCTION abacus_edges(regclass, double precision[], double precision[], double precision, boolean) IS
+    'the edges of a mesh, or those that meet a window, each once. With fixed, only fixed edges, with the lines that they are on; their kind is hard if one of these is. Shapes: lower and upper are {x, y}, in space {x, y, z}. Units: lower, upper, max_edge and length in those of the coordinates. Errors: 22023 a bad window or max_edge, 2202E an array of another length than the dimension';
 
 CREATE FUNCTION abacus_edges(
     mesh regclass,
     center double precision[],
     radius double precision,
     max_edge double precision DEFAULT NULL,
+    fixed boolean DEFAULT false,
     OUT v0 bigint,
     OUT v1 bigint,
-    OUT length double precision)
+    OUT length double precision,
+    OUT lines bigint[],
+    OUT kind text)
 RETURNS SETOF record
 AS 'MODULE_PATHNAME', 'abacus_sql_edges_in_ball'
 LANGUAGE C STABLE PARALLEL SAFE COST 10000 ROWS 1000 SUPPORT abacus_window_rows;
-COMMENT ON FUNCTION abacus_edges(regclass, double precision[], double precision, double precision) IS
-    'the edges that meet a ball, each once. Shapes: center is {x, y}, in space {x, y, z}. Units: center, radius, max_edge and length in those of the coordinates. Errors: 22023 a bad window or max_edge, 2202E an array of another length than the dimension, 22004 a NULL center or radius';
+COMMENT ON FUNCTION abacus_edges(regclass, double precision[], double precision, double precision, boolean) IS
+    'the edges that meet a ball, each once. With fixed, only fixed edges, with the lines that they are on; their kind is hard if one of these is. Shapes: center is {x, y}, in space {x, y, z}. Units: center, radius, max_edge and length in those of the coordinates. Errors: 22023 a bad window or max_edge, 2202E an array of another length than the dimension, 22004 a NULL center or radius';
 
 CREATE FUNCTION abacus_edges(
     mesh regclass,
     lower double precision[],
     upper text,
     max_edge double precision DEFAULT NULL,
+    fixed boolean DEFAULT false,
     OUT v0 bigint,
     OUT v1 bigint,
-    OUT length double precision)
+    OUT length double precision,
+    OUT lines bigint[],
+    OUT kind text)
 RETURNS SETOF record
 AS 'MODULE_PATHNAME', 'abacus_sql_edges'
 LANGUAGE C STABLE PARALLEL SAFE COST 10000 ROWS 1000 SUPPORT abacus_window_rows;
-COMMENT ON FUNCTION abacus_edges(regclass, double precision[], text, double precision) IS
+COMMENT ON FUNCTION abacus_edges(regclass, double precision[], text, double precision, boolean) IS
     'the same for a window, with its upper corner as text';
 
 CREATE FUNCTION abacus_star(mesh regclass, x double precision, y double precision)

@@ -6,6 +6,7 @@ SELECT has_type('abacus_page');
 SELECT has_type('abacus_simplex');
 SELECT has_type('abacus_simplex_page');
 SELECT has_type('abacus_vertex_page');
+SELECT has_type('abacus_line_point');
 SELECT is(typstorage::text || typalign::text, 'pd', 'pages are plain and aligned to doubles')
 FROM pg_type WHERE typname = 'abacus_page';
 SELECT has_cast('bytea', 'abacus_page');
@@ -87,12 +88,15 @@ INSERT INTO wanted VALUES
     ('abacus_voronoi_facets', 'mesh regclass, lower double precision[] DEFAULT NULL::double precision[], upper double precision[] DEFAULT NULL::double precision[], OUT vertex bigint, OUT neighbour bigint, OUT bounded boolean, OUT size double precision, OUT ring double precision[]', 'SETOF record', 's', false, 's'),
     ('abacus_hull', 'mesh regclass, max_edge double precision DEFAULT NULL::double precision, OUT ring bigint, OUT "position" bigint, OUT vertex bigint, OUT x double precision, OUT y double precision, OUT z double precision', 'SETOF record', 's', false, 's'),
     ('abacus_alpha_shape', 'mesh regclass, alpha double precision, allow_holes boolean DEFAULT NULL::boolean, OUT ring bigint, OUT "position" bigint, OUT vertex bigint, OUT x double precision, OUT y double precision, OUT z double precision', 'SETOF record', 's', false, 's'),
+    ('abacus_constrain', 'mesh regclass, query text, kind text DEFAULT ''hard''::text, existing text DEFAULT ''error''::text, z text DEFAULT NULL::text', 'bigint', 'v', false, 'u'),
+    ('abacus_unconstrain', 'mesh regclass, query text', 'bigint', 'v', true, 'u'),
+    ('abacus_lines', 'mesh regclass, OUT line bigint, OUT "position" bigint, OUT point bigint, OUT x double precision, OUT y double precision, OUT kind text', 'SETOF record', 's', true, 's'),
     ('abacus_spanning_tree', 'mesh regclass, OUT v0 bigint, OUT v1 bigint, OUT length double precision', 'SETOF record', 's', true, 's'),
     ('abacus_neighbours', 'mesh regclass, simplex abacus_simplex, steps integer', 'SETOF abacus_simplex', 's', true, 's'),
     ('abacus_simplices', 'mesh regclass, center double precision[], radius double precision', 'SETOF abacus_simplex', 's', true, 's'),
     ('abacus_simplices', 'mesh regclass, lower double precision[], upper double precision[]', 'SETOF abacus_simplex', 's', true, 's'),
     ('abacus_simplices', 'mesh regclass, lower double precision[], upper text', 'SETOF abacus_simplex', 's', true, 's'),
-    ('abacus_edges', 'mesh regclass, center double precision[], radius double precision, max_edge double precision DEFAULT NULL::double precision, OUT v0 bigint, OUT v1 bigint, OUT length double precision', 'SETOF record', 's', false, 's'),
+    ('abacus_edges', 'mesh regclass, center double precision[], radius double precision, max_edge double precision DEFAULT NULL::double precision, fixed boolean DEFAULT false, OUT v0 bigint, OUT v1 bigint, OUT length double precision, OUT lines bigint[], OUT kind text', 'SETOF record', 's', false, 's'),
     ('abacus_contours_rows', 'internal', 'internal', 'v', true, 'u'),
     ('abacus_surface_rows', 'internal', 'internal', 'v', true, 'u'),
     ('abacus_isosurface', 'mesh regclass, value double precision, attribute text DEFAULT NULL::text, carry text DEFAULT NULL::text, lower double precision[] DEFAULT NULL::double precision[], upper double precision[] DEFAULT NULL::double precision[], max_edge double precision DEFAULT NULL::double precision, OUT v0 bigint, OUT v1 bigint, OUT v2 bigint, OUT corners double precision[], OUT "values" double precision[]', 'SETOF record', 's', false, 's'),
@@ -111,8 +115,8 @@ INSERT INTO wanted VALUES
     ('abacus_vertices', 'mesh regclass, attribute text, range_lower double precision, range_upper double precision, lower double precision[] DEFAULT NULL::double precision[], upper double precision[] DEFAULT NULL::double precision[], OUT sequence bigint, OUT id bigint, OUT x double precision, OUT y double precision, OUT z double precision, OUT attributes double precision[], OUT vertex bigint', 'SETOF record', 's', false, 's'),
     ('abacus_vertices', 'mesh regclass, attribute text, range_lower text, range_upper text, lower double precision[] DEFAULT NULL::double precision[], upper double precision[] DEFAULT NULL::double precision[], OUT sequence bigint, OUT id bigint, OUT x double precision, OUT y double precision, OUT z double precision, OUT attributes double precision[], OUT vertex bigint', 'SETOF record', 's', false, 's'),
     ('abacus_cells', 'mesh regclass, center double precision[], radius double precision, max_edge double precision DEFAULT NULL::double precision, label text DEFAULT NULL::text, range double precision[] DEFAULT NULL::double precision[], OUT code bigint, OUT v0 bigint, OUT v1 bigint, OUT v2 bigint, OUT v3 bigint, OUT corners double precision[], OUT "values" double precision[], OUT labels double precision[]', 'SETOF record', 's', false, 's'),
-    ('abacus_edges', 'mesh regclass, lower double precision[] DEFAULT NULL::double precision[], upper double precision[] DEFAULT NULL::double precision[], max_edge double precision DEFAULT NULL::double precision, OUT v0 bigint, OUT v1 bigint, OUT length double precision', 'SETOF record', 's', false, 's'),
-    ('abacus_edges', 'mesh regclass, lower double precision[], upper text, max_edge double precision DEFAULT NULL::double precision, OUT v0 bigint, OUT v1 bigint, OUT length double precision', 'SETOF record', 's', false, 's'),
+    ('abacus_edges', 'mesh regclass, lower double precision[] DEFAULT NULL::double precision[], upper double precision[] DEFAULT NULL::double precision[], max_edge double precision DEFAULT NULL::double precision, fixed boolean DEFAULT false, OUT v0 bigint, OUT v1 bigint, OUT length double precision, OUT lines bigint[], OUT kind text', 'SETOF record', 's', false, 's'),
+    ('abacus_edges', 'mesh regclass, lower double precision[], upper text, max_edge double precision DEFAULT NULL::double precision, fixed boolean DEFAULT false, OUT v0 bigint, OUT v1 bigint, OUT length double precision, OUT lines bigint[], OUT kind text', 'SETOF record', 's', false, 's'),
     ('abacus_window_rows', 'internal', 'internal', 'v', true, 'u'),
     ('abacus_numbered_vertices', 'mesh regclass, OUT number bigint, OUT id bigint, OUT x double precision, OUT y double precision, OUT z double precision, OUT attributes double precision[]', 'SETOF record', 's', true, 's'),
     ('abacus_numbered_simplices', 'mesh regclass, OUT code bigint, OUT n0 bigint, OUT n1 bigint, OUT n2 bigint, OUT n3 bigint', 'SETOF record', 's', true, 's'),

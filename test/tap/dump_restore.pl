@@ -42,6 +42,8 @@ ALTER SCHEMA before RENAME TO after;
 SELECT abacus_octree_create('soil', 3, '{0,0,0}', '{8,4,2}', '{v}');
 SELECT abacus_octree_from_points('soil', 'SELECT i, sin(i) + 1, cos(i) + 1, i / 3e3 FROM generate_series(1, 3000) AS i', 5);
 SELECT abacus_octree_update('soil', 'SELECT code, lower[1] FROM abacus_octants(''soil'')');
+SELECT abacus_triangulate('fenced', 'SELECT 10 * x + y, x, y FROM generate_series(0, 9) AS x, generate_series(0, 9) AS y WHERE (x, y) <> (5, 5)');
+SELECT abacus_constrain('fenced', 'VALUES (7, 1, 0), (7, 2, 99), (7, 3, 90)', kind => 'soft');
 GRANT USAGE ON SCHEMA abacus TO owner;
 SET ROLE owner;
 SELECT abacus_triangulate('s."My Mesh"', 'SELECT i, (i * 7919) % 101, (i * 104729) % 97, (i * 31) % 89 FROM generate_series(1, 3000) AS i', dimension => 3);
@@ -72,6 +74,11 @@ $node->safe_psql('origin', "SELECT abacus_triangulate('many', 'SELECT i, i % 7, 
 sub many { return $node->safe_psql($_[0], q{SELECT count(*), md5(string_agg(v::text, ',' ORDER BY id)), (SELECT md5(string_agg(name, ',' ORDER BY position)) FROM abacus_attributes('many')) FROM abacus_vertices('many') AS v}); }
 my $many = many('origin');
 like($many, qr/^46\|/, 'a mesh with 1,000 attributes');
+
+# The lines of a mesh, and the edges on them.
+sub lines_of_mesh { return $node->safe_psql($_[0], q{SELECT * FROM abacus_lines('fenced'); SELECT v0, v1, lines, kind FROM abacus_edges('fenced', fixed => true)}); }
+my $lines = lines_of_mesh('origin');
+like($lines, qr/^7\|1\|0\|0\|0\|soft\n7\|2\|99\|9\|9\|soft\n/, 'a mesh with lines');
 
 sub vertex_table { return $_[0] =~ s/("?)$/_vertices$1/r; }
 
@@ -134,6 +141,12 @@ sub examine
 	$node->safe_psql($database, q{SELECT abacus_octree_balance('soil')});
 	is(many($database), $many, "$what: a mesh with 1,000 attributes");
 	is_sound($node, $database, 'many', "$what: a mesh with 1,000 attributes");
+	is(lines_of_mesh($database), $lines, "$what: a mesh with lines");
+	is_sound($node, $database, 'fenced', "$what: a mesh with lines");
+	is($node->safe_psql($database, q{SELECT abacus_insert('fenced', 'VALUES (100, 5, 5)')}), 1, "$what: it grows");
+	is($node->safe_psql($database, "SELECT count(*) FROM pg_depend WHERE objid = 'fenced_lines'::regclass AND refobjid = 'fenced'::regclass"), 1, "$what: which binds the table of lines");
+	is($node->safe_psql($database, q{SELECT abacus_unconstrain('fenced', 'VALUES (7)')}), 1, "$what: the line goes");
+	is($node->safe_psql($database, q{DROP TABLE fenced; SELECT to_regclass('fenced_lines')}), '', "$what: dropping the mesh drops its lines");
 	for my $mesh (@meshes)
 	{
 		is(grow($database, $mesh), $grown{$mesh}, "$what: $mesh grows as the origin does");

@@ -9,6 +9,7 @@
 
 #include "pg/base/settings.h"
 #include "pg/mesh/change.h"
+#include "pg/mesh/mesh_lines.h"
 #include "pg/mesh/notices.h"
 
 /* The handles are closed with the host. */
@@ -23,6 +24,8 @@ close_handles(void *handle)
 	abacus_load_close(change->load);
 	abacus_labelling_close(change->labelling);
 	abacus_marking_close(change->marking);
+	abacus_segments_close(change->fixed);
+	abacus_segments_close(change->freed);
 }
 
 /* Initializes a change whose writer has begun. */
@@ -139,6 +142,8 @@ change_open_build(Change *change)
 		host_run(host, abacus_build_hold, change->build);
 	if (change->returns)
 		host_run(host, abacus_build_log, change->build, setting_query_sort_bytes());
+	if (change->writer.header->facts.census.lines > 0)
+		mesh_lines_attach(host, change->build);
 }
 
 /*
@@ -172,6 +177,30 @@ change_insert(Change *change)
 	host_run(host, abacus_build_insert, change->build, change->stage, change->on_duplicate,
 			 header);
 	change->inserts = true;
+	mesh_lines_fix_waiting(&change->writer, change->build, &change->fixed);
+}
+
+/* Stages the points of the stage: they wait, after those that wait already. */
+void
+change_stage(Change *change)
+{
+	host_run(change->writer.host, abacus_stage_finish, change->stage,
+			 &change->writer.header->facts);
+}
+
+/*
+ * Inserts points that wait, if lines wait with them, and fixes their edges: what follows frees edges
+ * or deletes points.
+ */
+static void
+settle_lines(Change *change)
+{
+	const abacus_census *census = &change->writer.header->facts.census;
+
+	if (census->lines_wait == 0)
+		return;
+	host_run(change->writer.host, abacus_build_run, change->build, 0, change->writer.header);
+	mesh_lines_fix_waiting(&change->writer, change->build, &change->fixed);
 }
 
 /*
@@ -185,6 +214,7 @@ change_delete(Change *change, bool exactly)
 	uint64		deleted;
 
 	change_open_build(change);
+	settle_lines(change);
 	host_run(host, abacus_build_delete, change->build, change->stage, exactly,
 			 change->writer.header, &deleted);
 	return deleted;
@@ -203,6 +233,7 @@ change_update(Change *change, const uint32 *attributes, size_t count, bool exact
 	uint64		updated;
 
 	change_open_build(change);
+	settle_lines(change);
 	host_run(host, abacus_build_update, change->build, change->stage, attributes, count, exactly,
 			 change->writer.header, &updated, missing);
 	return updated;
@@ -229,8 +260,54 @@ change_clear(Change *change)
 	Host	   *host = change->writer.host;
 	uint64		deleted;
 
+	mesh_lines_refuse_clearing(&change->writer);
 	change_open_build(change);
 	host_run(host, abacus_build_clear, change->build, change->writer.header, &deleted);
+}
+
+/*
+ * The mesh has so many more lines, or fewer, in its table. To be called before their edges are fixed,
+ * and after they are freed.
+ */
+void
+change_lines(Change *change, int64 more)
+{
+	abacus_facts *facts = &change->writer.header->facts;
+
+	facts->census.lines += (uint64) more;
+	facts->standing = facts->census.lines > 0 ? ABACUS_CONSTRAINED : ABACUS_DELAUNAY;
+	if (facts->census.lines == 0)
+		facts->census.lines_wait = 0;
+}
+
+/* Fixes the edges of the segments in `fixed`. */
+void
+change_fix(Change *change)
+{
+	Host	   *host = change->writer.host;
+
+	change_open_build(change);
+	host_run(host, abacus_build_fix, change->build, change->fixed, change->writer.header);
+	abacus_segments_close(change->fixed);
+	change->fixed = NULL;
+}
+
+/*
+ * Frees the edges of the segments in `freed`. Lines that wait are fixed before, together with the
+ * points that wait; if there are no simplices, there is nothing to free.
+ */
+void
+change_unfix(Change *change)
+{
+	Host	   *host = change->writer.host;
+	abacus_header *header = change->writer.header;
+
+	change_open_build(change);
+	settle_lines(change);
+	if (header->facts.census.vertices > 0)
+		host_run(host, abacus_build_unfix, change->build, change->freed, header);
+	abacus_segments_close(change->freed);
+	change->freed = NULL;
 }
 
 /* Reports the simplices that have been created and removed, if the change returns them. */
@@ -254,6 +331,10 @@ change_abandon(Change *change)
 void
 change_end(Change *change)
 {
+	abacus_census *census = &change->writer.header->facts.census;
+
+	if (census->lines > 0 && census->vertices == 0)
+		census->lines_wait = 1;
 	notice_duplicates(&change->writer, change->duplicates, change->may_replace);
 	if (change->inserts)
 		notice_waiting(&change->writer);

@@ -4,7 +4,7 @@
 #ifndef ABACUS_CHANGE_OF_MESH_H
 #define ABACUS_CHANGE_OF_MESH_H
 
-#include "abacus/build.h"
+#include "abacus/constrain.h"
 #include "abacus/labels.h"
 #include "abacus/load.h"
 #include "pg/input/source.h"
@@ -26,6 +26,8 @@ typedef struct Change
 	abacus_load *load;			/* a triangulation made elsewhere */
 	abacus_labelling *labelling;
 	abacus_marking *marking;
+	abacus_segments *fixed;		/* of lines that come */
+	abacus_segments *freed;		/* of lines that go */
 } Change;
 
 extern Change *change_begin(Oid mesh, const char *command);
@@ -45,6 +47,10 @@ extern uint64 change_update(Change *change, const uint32 *attributes, size_t cou
 							abacus_named_place *missing);
 extern void change_attributes(Change *change, const uint32 *source, size_t count);
 extern void change_clear(Change *change);
+extern void change_stage(Change *change);
+extern void change_lines(Change *change, int64 more);
+extern void change_fix(Change *change);
+extern void change_unfix(Change *change);
 extern void change_report(Change *change, abacus_change_report report, void *context);
 extern void change_abandon(Change *change);
 extern void change_end(Change *change);

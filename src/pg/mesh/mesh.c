@@ -8,6 +8,9 @@
  * of the mesh drops both. A dump does not carry that entry. A restored vertex table is
  * found by its name (<mesh>_vertices) until the owner changes the mesh, which writes
  * the entry again.
+ *
+ * A mesh that has had lines has a third table, of the type abacus_line_point, which is
+ * bound and found in the same way. Its name ends in _lines.
  */
 #include "postgres.h"
 
@@ -77,6 +80,7 @@ static void (*on_restored) (Relation mesh) = NULL;
 
 static Oid	simplex_row_type = InvalidOid;
 static Oid	vertex_row_type = InvalidOid;
+static Oid	line_row_type = InvalidOid;
 
 static bool
 is_table_of(Oid relid, const char *name, Oid *known)
@@ -103,6 +107,12 @@ static bool
 is_vertex_table(Oid relid)
 {
 	return is_table_of(relid, VERTEX_PAGE_TYPE, &vertex_row_type);
+}
+
+static bool
+is_lines_table(Oid relid)
+{
+	return is_table_of(relid, LINE_POINT_TYPE, &line_row_type);
 }
 
 /* Opens the table of a mesh under the given lock, or says why it cannot be used. */
@@ -186,18 +196,28 @@ find_bound_table(Oid class, Oid object, bool dependent, bool (*wanted) (Oid))
 	return found;
 }
 
-/* The vertex table of a mesh, found by its name alone; InvalidOid if there is none. */
+/* A table beside that of the simplices. */
+typedef struct SideTable
+{
+	const char *suffix;
+	bool		(*is) (Oid);
+} SideTable;
+
+static const SideTable vertex_side = {VERTEX_TABLE_SUFFIX, is_vertex_table};
+static const SideTable lines_side = {LINES_TABLE_SUFFIX, is_lines_table};
+
+/* Such a table of a mesh, found by its name alone; InvalidOid if there is none. */
 static Oid
-find_named_vertex_table(Oid mesh)
+find_named_table(Oid mesh, const SideTable *side)
 {
 	char	   *name = get_rel_name(mesh);
 	Oid			relid;
 
 	if (name == NULL)
 		return InvalidOid;
-	relid = get_relname_relid(psprintf("%s" VERTEX_TABLE_SUFFIX, name), get_rel_namespace(mesh));
+	relid = get_relname_relid(psprintf("%s%s", name, side->suffix), get_rel_namespace(mesh));
 	if (OidIsValid(relid) &&
-		(!is_vertex_table(relid) ||
+		(!side->is(relid) ||
 		 OidIsValid(find_bound_table(RelationRelationId, relid, true, is_simplex_table))))
 		relid = InvalidOid;
 	return relid;
@@ -209,7 +229,7 @@ mesh_find_vertex_table(Oid mesh)
 {
 	Oid			relid = find_bound_table(RelationRelationId, mesh, false, is_vertex_table);
 
-	return OidIsValid(relid) ? relid : find_named_vertex_table(mesh);
+	return OidIsValid(relid) ? relid : find_named_table(mesh, &vertex_side);
 }
 
 /* The mesh whose simplex table or vertex table this is; InvalidOid if none. */
@@ -281,22 +301,57 @@ mesh_unlock_for_session(MeshLocks *locks)
 	UnlockRelationIdForSession(&locks->simplices, ExclusiveLock);
 }
 
+/* Opens such a table of the mesh under the lock that the access needs; NULL if there is none. */
+static Relation
+open_side_table(Relation mesh, const SideTable *side, MeshAccess access, bool *bound)
+{
+	Oid			relid = find_bound_table(RelationRelationId, RelationGetRelid(mesh), false, side->is);
+
+	*bound = OidIsValid(relid);
+	if (!*bound)
+		relid = find_named_table(RelationGetRelid(mesh), side);
+	/* it may be dropped while we wait for the lock */
+	return OidIsValid(relid)
+		? try_relation_open(relid, access == MESH_READ ? AccessShareLock : RowExclusiveLock) : NULL;
+}
+
+/* Whether a writer should bind a table that is not bound: he must own both. */
+static bool
+may_bind(Relation mesh, Oid relid, MeshAccess access)
+{
+	return access == MESH_WRITE && object_ownercheck(RelationRelationId, relid, GetUserId()) &&
+		object_ownercheck(RelationRelationId, RelationGetRelid(mesh), GetUserId());
+}
+
 /*
- * The table of the mesh's vertex pages, locked and checked; a writer binds it if it is not bound.
+ * The table of the mesh's lines, locked and checked; InvalidOid if there is none. A writer binds it
+ * if it is not bound.
  */
+Oid
+mesh_lines_table(Relation mesh, MeshAccess access)
+{
+	bool		bound;
+	Relation	rel = open_side_table(mesh, &lines_side, access, &bound);
+	Oid			relid;
+
+	if (rel == NULL)
+		return InvalidOid;
+	mesh_check_lines_access(rel, access, mesh);
+	relid = RelationGetRelid(rel);
+	if (!bound && may_bind(mesh, relid, access))
+		mesh_bind_table(RelationGetRelid(mesh), relid);
+	relation_close(rel, NoLock);
+	return relid;
+}
+
+/* The same for the table of its vertex pages, which must be there. */
 Oid
 mesh_vertex_table(Relation mesh, MeshAccess access)
 {
-	Oid			relid = find_bound_table(RelationRelationId, RelationGetRelid(mesh), false,
-										 is_vertex_table);
-	bool		bound = OidIsValid(relid);
-	Relation	rel = NULL;
+	bool		bound;
+	Relation	rel = open_side_table(mesh, &vertex_side, access, &bound);
+	Oid			relid;
 
-	if (!bound)
-		relid = find_named_vertex_table(RelationGetRelid(mesh));
-	/* it may be dropped while we wait for the lock */
-	if (OidIsValid(relid))
-		rel = try_relation_open(relid, access == MESH_READ ? AccessShareLock : RowExclusiveLock);
 	if (rel == NULL)
 		ereport(ERROR,
 				(errcode(ERRCODE_UNDEFINED_TABLE),
@@ -306,10 +361,11 @@ mesh_vertex_table(Relation mesh, MeshAccess access)
 				 errhint("After a restore, give the vertex table that name; if it is lost, "
 						 "restore it from a backup.")));
 	mesh_check_access(rel, access, mesh);
-	if (!bound && access == MESH_WRITE && object_ownercheck(RelationRelationId, relid, GetUserId()) &&
-		object_ownercheck(RelationRelationId, RelationGetRelid(mesh), GetUserId()))
+	relid = RelationGetRelid(rel);
+	if (!bound && may_bind(mesh, relid, access))
 	{
-		mesh_bind_vertex_table(RelationGetRelid(mesh), relid);
+		mesh_bind_table(RelationGetRelid(mesh), relid);
+		(void) mesh_lines_table(mesh, access);
 		if (on_restored != NULL)
 			on_restored(mesh);
 	}
@@ -330,9 +386,9 @@ mesh_bind_object(Oid class, Oid object, Oid mesh)
 }
 
 void
-mesh_bind_vertex_table(Oid mesh, Oid vertices)
+mesh_bind_table(Oid mesh, Oid table)
 {
-	mesh_bind_object(RelationRelationId, vertices, mesh);
+	mesh_bind_object(RelationRelationId, table, mesh);
 }
 
 /* The mesh that a trigger is bound to; InvalidOid if none. */

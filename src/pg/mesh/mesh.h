@@ -1,6 +1,6 @@
 /*
- * mesh.h: the representation of a mesh in the database: two typed tables, found, locked and checked
- * for privileges.
+ * mesh.h: the representation of a mesh in the database: two typed tables, and a third one if it has
+ * had lines; found, locked and checked for privileges.
  */
 #ifndef ABACUS_MESH_H
 #define ABACUS_MESH_H
@@ -11,6 +11,9 @@
 #define SIMPLEX_PAGE_TYPE "abacus_simplex_page"
 #define VERTEX_PAGE_TYPE "abacus_vertex_page"
 #define VERTEX_TABLE_SUFFIX "_vertices"
+#define LINE_POINT_TYPE "abacus_line_point"
+#define LINE_POINT_COLUMNS 6
+#define LINES_TABLE_SUFFIX "_lines"
 
 /* What a caller intends to do, which decides the lock and the privileges it needs. */
 typedef enum MeshAccess
@@ -37,7 +40,8 @@ extern Oid	mesh_table_owner(Oid relid);
 extern Oid	mesh_find_vertex_table(Oid mesh);
 extern Oid	mesh_vertex_table(Relation mesh, MeshAccess access);
 extern void mesh_bind_object(Oid class, Oid object, Oid mesh);
-extern void mesh_bind_vertex_table(Oid mesh, Oid vertices);
+extern void mesh_bind_table(Oid mesh, Oid table);
+extern Oid	mesh_lines_table(Relation mesh, MeshAccess access);
 extern Oid	mesh_of_trigger(Oid trigger);
 extern void mesh_bind_trigger(Oid mesh, Oid trigger);
 extern void mesh_tell_of_restored(void (*tell) (Relation mesh));

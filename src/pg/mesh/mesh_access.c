@@ -21,17 +21,18 @@
 #include "pg/store/page_index.h"
 
 /*
- * The detail of an error about a missing privilege: which mesh this vertex table belongs to, and
- * which user lacks the privilege. If the mesh follows a table, that user may not be the caller.
+ * The detail of an error about a missing privilege: which mesh this table belongs to, unless it is
+ * that of the simplices, and which user lacks the privilege. If the mesh follows a table, that user
+ * may not be the caller.
  */
 static const char *
-describe_denied(Relation mesh)
+describe_denied(Relation mesh, const char *side)
 {
 	StringInfoData detail;
 
 	initStringInfo(&detail);
 	if (mesh != NULL)
-		appendStringInfo(&detail, "It is the vertex table of mesh \"%s\".",
+		appendStringInfo(&detail, "It is the %s of mesh \"%s\".", side,
 						 RelationGetRelationName(mesh));
 	if (GetUserId() != GetOuterUserId())
 		appendStringInfo(&detail, "%sIt is accessed as user \"%s\".", mesh != NULL ? " " : "",
@@ -39,9 +40,9 @@ describe_denied(Relation mesh)
 	return detail.data;
 }
 
-/* Raises the executor's errors; `mesh` is the one whose vertex table this is, or NULL. */
+/* Raises the executor's errors; `mesh` is the one whose table this is, besides the first, or NULL. */
 static void
-check_privileges(Relation rel, MeshAccess access, Relation mesh)
+check_privileges(Relation rel, MeshAccess access, Relation mesh, const char *side, const char *hint)
 {
 	Oid			relid = RelationGetRelid(rel);
 	AclMode		needed = access == MESH_READ ? ACL_SELECT
@@ -49,14 +50,13 @@ check_privileges(Relation rel, MeshAccess access, Relation mesh)
 
 	if (pg_class_aclmask(relid, GetUserId(), needed, ACLMASK_ALL) != needed)
 	{
-		const char *detail = describe_denied(mesh);
+		const char *detail = describe_denied(mesh, side);
 
 		ereport(ERROR,
 				(errcode(ERRCODE_INSUFFICIENT_PRIVILEGE),
 				 errmsg("permission denied for table %s", RelationGetRelationName(rel)),
 				 detail[0] == '\0' ? 0 : errdetail_internal("%s", detail),
-				 mesh == NULL ? 0 :
-				 errhint("Grant privileges on both tables of a mesh, and give both the same owner.")));
+				 mesh == NULL ? 0 : errhint("%s", hint)));
 	}
 	if (check_enable_rls(relid, InvalidOid, false) == RLS_ENABLED)
 		ereport(ERROR,
@@ -115,7 +115,8 @@ mesh_check_access(Relation rel, MeshAccess access, Relation mesh)
 {
 	/* moving rows does not show them: as with VACUUM FULL, the owner's rights are enough */
 	if (access != MESH_MOVE)
-		check_privileges(rel, access, mesh);
+		check_privileges(rel, access, mesh, "vertex table",
+						 "Grant privileges on both tables of a mesh, and give both the same owner.");
 	if (rel->rd_rel->relam != HEAP_TABLE_AM_OID)
 		ereport(ERROR,
 				(errcode(ERRCODE_WRONG_OBJECT_TYPE),
@@ -139,4 +140,21 @@ mesh_check_access(Relation rel, MeshAccess access, Relation mesh)
 				 errhint("SET max_parallel_workers_per_gather = 0 for this query.")));
 	if (access != MESH_READ)
 		check_publications(rel);
+}
+
+/*
+ * The same for the table of the lines. Its rows are read and written by SQL, so PostgreSQL checks
+ * all else.
+ */
+void
+mesh_check_lines_access(Relation rel, MeshAccess access, Relation mesh)
+{
+	if (access != MESH_MOVE)
+		check_privileges(rel, access, mesh, "table of lines",
+						 "Grant privileges on all three tables of a mesh with lines, and give them "
+						 "the same owner.");
+	if (RELATION_IS_OTHER_TEMP(rel))
+		ereport(ERROR,
+				(errcode(ERRCODE_FEATURE_NOT_SUPPORTED),
+				 errmsg("cannot access temporary meshes of other sessions")));
 }

@@ -7,5 +7,6 @@
 #include "pg/mesh/mesh.h"
 
 extern void mesh_check_access(Relation rel, MeshAccess access, Relation mesh);
+extern void mesh_check_lines_access(Relation rel, MeshAccess access, Relation mesh);
 
 #endif

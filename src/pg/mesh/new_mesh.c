@@ -4,8 +4,6 @@
 #include "postgres.h"
 
 #include "access/xact.h"
-#include "catalog/pg_class.h"
-#include "commands/comment.h"
 #include "miscadmin.h"
 #include "utils/builtins.h"
 #include "utils/lsyscache.h"
@@ -28,18 +26,6 @@ create_table(Oid namespace, const char *name, Oid type_namespace, const char *ty
 							  quote_qualified_identifier(schema, name),
 							  quote_qualified_identifier(type_schema, type), primary_key),
 					 name);
-}
-
-/* Copies comments: the table's describes it, the columns' come from its row type. */
-static void
-describe_table(Oid table, const char *what, Oid type_namespace, const char *type)
-{
-	Oid			row = get_relname_relid(type, type_namespace);
-
-	CreateComments(table, RelationRelationId, 0, what);
-	for (int32 column = 1; column <= PAGE_TABLE_KEYS + 1; column++)
-		CreateComments(table, RelationRelationId, column,
-					   GetComment(row, RelationRelationId, column));
 }
 
 /*
@@ -76,13 +62,13 @@ new_mesh(text *name, Oid extension_namespace, abacus_header *header, const char 
 	create_table(namespace, vertices_name, extension_namespace, VERTEX_PAGE_TYPE, "first, part");
 	mesh = new_table_id(namespace, range->relname);
 	vertices = new_table_id(namespace, vertices_name);
-	describe_table(mesh, is_octree ? "pages of an octree: see abacus_octants()"
-				   : "pages of a mesh: see abacus_simplices()", extension_namespace,
-				   SIMPLEX_PAGE_TYPE);
-	describe_table(vertices, is_octree ? "no pages: it belongs to an octree"
-				   : "points of a mesh that wait or are repeated: see abacus_vertices()",
-				   extension_namespace, VERTEX_PAGE_TYPE);
-	mesh_bind_vertex_table(mesh, vertices);
+	new_table_describe(mesh, is_octree ? "pages of an octree: see abacus_octants()"
+					   : "pages of a mesh: see abacus_simplices()",
+					   get_relname_relid(SIMPLEX_PAGE_TYPE, extension_namespace), PAGE_TABLE_KEYS + 1);
+	new_table_describe(vertices, is_octree ? "no pages: it belongs to an octree"
+					   : "points of a mesh that wait or are repeated: see abacus_vertices()",
+					   get_relname_relid(VERTEX_PAGE_TYPE, extension_namespace), PAGE_TABLE_KEYS + 1);
+	mesh_bind_table(mesh, vertices);
 	CommandCounterIncrement();
 
 	host = mesh_host_create(CurrentMemoryContext, mesh, MESH_WRITE);

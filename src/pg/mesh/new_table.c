@@ -5,6 +5,8 @@
 #include "postgres.h"
 
 #include "catalog/namespace.h"
+#include "catalog/pg_class.h"
+#include "commands/comment.h"
 #include "utils/builtins.h"
 #include "utils/lsyscache.h"
 #include "utils/varlena.h"
@@ -108,4 +110,14 @@ new_table_id(Oid schema, const char *name)
 				 errdetail("It was dropped or renamed as soon as it had been made."),
 				 errhint("Look for an event trigger that does so.")));
 	return table;
+}
+
+/* Writes comments: that of the table is `what`, those of its columns come from its row type. */
+void
+new_table_describe(Oid table, const char *what, Oid row, int columns)
+{
+	CreateComments(table, RelationRelationId, 0, what);
+	for (int32 column = 1; column <= columns; column++)
+		CreateComments(table, RelationRelationId, column,
+					   GetComment(row, RelationRelationId, column));
 }

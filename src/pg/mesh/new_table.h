@@ -9,5 +9,6 @@ extern Oid	new_table_schema(RangeVar *name);
 extern void new_table_check_name(Oid schema, const char *name);
 extern void new_table_create(const char *command, const char *name);
 extern Oid	new_table_id(Oid schema, const char *name);
+extern void new_table_describe(Oid table, const char *what, Oid row, int columns);
 
 #endif

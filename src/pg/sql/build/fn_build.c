@@ -25,6 +25,7 @@
 #include "abacus/build.h"
 #include "pg/base/settings.h"
 #include "pg/base/sql_function.h"
+#include "pg/mesh/mesh_lines.h"
 #include "pg/mesh/notices.h"
 #include "pg/mesh/writer.h"
 #include "pg/space/compact.h"
@@ -125,26 +126,47 @@ commit(Writer *writer)
 	superseded_reclaim(simplices->superseded, simplices->heap);
 }
 
-/* Inserts all waiting points. */
+/* What is open in the core while points are inserted. */
+typedef struct Handles
+{
+	abacus_build *build;
+	abacus_segments *segments;
+} Handles;
+
+static void
+close_handles(void *handle)
+{
+	Handles    *handles = handle;
+
+	abacus_build_close(handles->build);
+	abacus_segments_close(handles->segments);
+}
+
+/* Inserts all waiting points, and fixes the edges of lines that have waited for them. */
 static void
 insert_all(Writer *writer, uint64 batch)
 {
 	Host	   *host = writer->host;
 	const abacus_facts *facts = &writer->header->facts;
 	uint64		duplicates = facts->census.duplicates;
-	abacus_build *build = NULL;
+	Handles    *handles = MemoryContextAllocZero(host->home, sizeof(Handles));
 
 	if (!facts->columns.apart && abacus_are_apart(facts->form.dimension, facts->columns.attributes))
 	{
 		move_attributes_apart(writer);
 		commit(writer);
 	}
-	host_run(host, abacus_build_open, &host->table, facts, setting_cache_bytes(), &build);
-	host_own(host, build, (void (*) (void *)) abacus_build_close);
-	if (rekey(writer, build))
+	host_run(host, abacus_build_open, &host->table, facts, setting_cache_bytes(), &handles->build);
+	host_own(host, handles, close_handles);
+	if (rekey(writer, handles->build))
 		commit(writer);
-	while (facts->census.inserted < facts->census.staged && insert_batch(writer, build, batch))
+	while (facts->census.inserted < facts->census.staged && insert_batch(writer, handles->build, batch))
 		commit(writer);
+	if (facts->census.lines_wait > 0)
+	{
+		mesh_lines_fix_waiting(writer, handles->build, &handles->segments);
+		commit(writer);
+	}
 	notice_duplicates(writer, duplicates, false);
 	notice_waiting(writer);
 	host_own(host, NULL, NULL);	/* the core would look for pages in their old places */

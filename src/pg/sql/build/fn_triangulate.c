@@ -10,6 +10,7 @@
 #include "pg/base/settings.h"
 #include "pg/base/sql_function.h"
 #include "pg/mesh/change.h"
+#include "pg/mesh/mesh_lines.h"
 #include "pg/mesh/new_mesh.h"
 #include "pg/mesh/shape.h"
 
@@ -29,6 +30,7 @@ abacus_sql_triangulate(PG_FUNCTION_ARGS)
 	change_open_build(change);
 	host_run(host, abacus_build_rekey, change->build, setting_sort_bytes(), header, &rekeyed);
 	host_run(host, abacus_build_run, change->build, 0, header);
+	mesh_lines_fix_waiting(&change->writer, change->build, &change->fixed);
 	simplices = header->facts.census.simplices;
 	change->inserts = true;
 	change_end(change);

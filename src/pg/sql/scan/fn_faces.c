@@ -11,6 +11,7 @@
 #include "pg/base/settings.h"
 #include "pg/base/sql_function.h"
 #include "pg/sql/arguments/window.h"
+#include "pg/sql/constrain/fixed_edges.h"
 #include "pg/sql/rows/faces.h"
 #include "pg/sql/rows/result.h"
 #include "pg/sql/rows/set.h"
@@ -27,7 +28,9 @@ enum
 	EDGE_V0,
 	EDGE_V1,
 	EDGE_LENGTH,
-	EDGE_PATH,					/* if lines are wanted */
+	EDGE_PATH,					/* if the places of the ends are wanted */
+	EDGE_LINES = EDGE_PATH,		/* otherwise, NULL as no fixed edges are wanted */
+	EDGE_KIND,
 	EDGE_COLUMNS
 };
 
@@ -35,13 +38,13 @@ typedef enum Wanted
 {
 	VERTICES,					/* mesh, a window, and for a box an attribute and its range */
 	EDGES,						/* mesh, a window, and max_edge */
-	EDGE_LINES					/* the same, with the coordinates of their ends */
+	EDGE_PATHS					/* the same, with the coordinates of their ends */
 } Wanted;
 
 static bool
 are_edges(Wanted wanted)
 {
-	return wanted == EDGES || wanted == EDGE_LINES;
+	return wanted == EDGES || wanted == EDGE_PATHS;
 }
 
 static void
@@ -67,15 +70,18 @@ begin(FunctionCallInfo fcinfo, FuncCallContext *set, WindowForm form, Wanted wan
 }
 
 static Datum
-edge_row(TupleDesc row_type, const abacus_edge *edge, const double *ends, uint32 dimension)
+edge_row(TupleDesc row_type, Wanted wanted, const abacus_edge *edge, const double *ends,
+		 uint32 dimension)
 {
-	Datum		values[EDGE_COLUMNS];
+	Datum		values[EDGE_COLUMNS] = {0};
 	bool		isnull[EDGE_COLUMNS] = {false};
 
 	values[EDGE_V0] = Int64GetDatum(edge->id[0]);
 	values[EDGE_V1] = Int64GetDatum(edge->id[1]);
 	values[EDGE_LENGTH] = Float8GetDatum(edge->length);
-	if (row_type->natts > EDGE_PATH)
+	isnull[EDGE_LINES] = wanted == EDGES;
+	isnull[EDGE_KIND] = wanted == EDGES;
+	if (wanted == EDGE_PATHS)
 		values[EDGE_PATH] = attribute_array(ends, (int) (2 * dimension));
 	return HeapTupleGetDatum(heap_form_tuple(row_type, values, isnull));
 }
@@ -97,7 +103,7 @@ next_row(FuncCallContext *set, Wanted wanted, Datum *row)
 	if (status == ABACUS_END)
 		return false;
 	*row = are_edges(wanted)
-		? edge_row(set->tuple_desc, &edge, ends, reader->header.facts.form.dimension)
+		? edge_row(set->tuple_desc, wanted, &edge, ends, reader->header.facts.form.dimension)
 		: vertex_row(set->tuple_desc, &vertex, &reader->header.facts);
 	return true;
 }
@@ -138,20 +144,54 @@ abacus_sql_vertices_in_ball(PG_FUNCTION_ARGS)
 	return next(fcinfo, WINDOW_BALL, VERTICES);
 }
 
+/* Whether abacus_edges is called for fixed edges only. */
+static bool
+wants_fixed(FunctionCallInfo fcinfo)
+{
+	return PG_NARGS() > 4 && !PG_ARGISNULL(4) && PG_GETARG_BOOL(4);
+}
+
+/* abacus_edges for fixed edges. */
+static Datum
+fixed_edges(FunctionCallInfo fcinfo, WindowForm form)
+{
+	double		max_edge;
+	abacus_window window = {0};
+	Reader	   *reader;
+
+	InitMaterializedSRF(fcinfo, 0);
+	if (PG_ARGISNULL(0))
+		PG_RETURN_NULL();
+	reader = reader_open(PG_GETARG_OID(0), CurrentMemoryContext);
+	max_edge = window_max_edge(fcinfo, 3);
+	window_arguments(fcinfo, 1, form, &reader->header.facts.form, &window);
+	fixed_edges_put(reader, &window, max_edge, (ReturnSetInfo *) fcinfo->resultinfo);
+	host_release(reader->host);
+	host_destroy(reader->host);
+	PG_RETURN_NULL();
+}
+
 /*
- * abacus_edges(mesh regclass, lower float8[], upper float8[], max_edge float8)
- *     -> v0, v1, length
+ * abacus_edges(mesh regclass, lower float8[], upper float8[], max_edge float8, fixed boolean)
+ *     -> v0, v1, length, lines, kind
  */
 Datum
 abacus_sql_edges(PG_FUNCTION_ARGS)
 {
+	if (wants_fixed(fcinfo))
+		return fixed_edges(fcinfo, WINDOW_BOX);
 	return next(fcinfo, WINDOW_BOX, EDGES);
 }
 
-/* abacus_edges(mesh regclass, center float8[], radius float8, max_edge float8) -> the same */
+/*
+ * abacus_edges(mesh regclass, center float8[], radius float8, max_edge float8, fixed boolean)
+ *     -> the same
+ */
 Datum
 abacus_sql_edges_in_ball(PG_FUNCTION_ARGS)
 {
+	if (wants_fixed(fcinfo))
+		return fixed_edges(fcinfo, WINDOW_BALL);
 	return next(fcinfo, WINDOW_BALL, EDGES);
 }
 
@@ -162,5 +202,5 @@ abacus_sql_edges_in_ball(PG_FUNCTION_ARGS)
 Datum
 abacus_sql_edge_lines(PG_FUNCTION_ARGS)
 {
-	return next(fcinfo, WINDOW_BOX, EDGE_LINES);
+	return next(fcinfo, WINDOW_BOX, EDGE_PATHS);
 }

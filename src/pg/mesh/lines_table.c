@@ -1,0 +1,123 @@
+/*
+ * lines_table.c: the table of a mesh's lines, found or made.
+ *
+ * A row is a point of a line: which line, its position there, the id that was given for it, its
+ * place, and the kind of the line. The first lines of a mesh make the table. It stays when the last
+ * line goes.
+ */
+#include "postgres.h"
+
+#include "access/xact.h"
+#include "catalog/pg_class.h"
+#include "miscadmin.h"
+#include "utils/acl.h"
+#include "utils/builtins.h"
+#include "utils/lsyscache.h"
+
+#include "pg/mesh/lines_table.h"
+#include "pg/mesh/new_table.h"
+#include "pg/port/port.h"
+
+/* The name of the table in SQL, with its schema. */
+char *
+lines_table_name(Oid table)
+{
+	return quote_qualified_identifier(get_namespace_name(get_rel_namespace(table)),
+									  get_rel_name(table));
+}
+
+static void
+check_may_make(Relation mesh, const char *name)
+{
+	const char *mesh_name = RelationGetRelationName(mesh);
+
+	if (!object_ownercheck(RelationRelationId, RelationGetRelid(mesh), GetUserId()))
+		ereport(ERROR,
+				(errcode(ERRCODE_INSUFFICIENT_PRIVILEGE),
+				 errmsg("must be owner of mesh \"%s\" to give it its first lines", mesh_name),
+				 errdetail("They make the table \"%s\".", name),
+				 errhint("Its owner can call abacus_constrain(), and grant privileges on that table.")));
+	if (strlen(name) >= NAMEDATALEN)
+		ereport(ERROR,
+				(errcode(ERRCODE_NAME_TOO_LONG),
+				 errmsg("name of mesh \"%s\" is too long for a mesh with lines", mesh_name),
+				 errdetail("The table \"%s\" would belong to it; names have at most %d bytes.", name,
+						   NAMEDATALEN - 1),
+				 errhint("Rename the mesh and its vertex table.")));
+	new_table_check_name(RelationGetNamespace(mesh), name);
+}
+
+/* Runs CREATE as the owner of the mesh, who will own the table as well. */
+static void
+create(Relation mesh, const char *command, const char *name)
+{
+	Oid			user;
+	int			security;
+
+	GetUserIdAndSecContext(&user, &security);
+	if (mesh->rd_rel->relowner != user)
+		SetUserIdAndSecContext(mesh->rd_rel->relowner, security | SECURITY_LOCAL_USERID_CHANGE);
+	new_table_create(command, name);
+	SetUserIdAndSecContext(user, security);
+}
+
+/*
+ * The table of the lines of a mesh that gets lines. If there is none, makes it, without the index
+ * on places.
+ */
+Oid
+lines_table_make(Relation mesh, bool *is_new)
+{
+	Oid			schema = RelationGetNamespace(mesh);
+	Oid			table = mesh_lines_table(mesh, MESH_WRITE);
+	char	   *name;
+	Oid			type_schema;
+	Oid			row;
+
+	*is_new = !OidIsValid(table);
+	if (!*is_new)
+		return table;
+	name = psprintf("%s" LINES_TABLE_SUFFIX, RelationGetRelationName(mesh));
+	check_may_make(mesh, name);
+	type_schema = get_rel_namespace(get_typ_typrelid(mesh->rd_rel->reloftype));
+	row = get_relname_relid(LINE_POINT_TYPE, type_schema);
+	create(mesh,
+		   psprintf("CREATE %sTABLE %s OF %s (point WITH OPTIONS NOT NULL, x WITH OPTIONS NOT NULL, "
+					"y WITH OPTIONS NOT NULL, kind WITH OPTIONS NOT NULL, PRIMARY KEY (line, position)) "
+					"USING heap",
+					mesh->rd_rel->relpersistence == RELPERSISTENCE_UNLOGGED ? "UNLOGGED " : "",
+					quote_qualified_identifier(get_namespace_name(schema), name),
+					quote_qualified_identifier(get_namespace_name(type_schema), LINE_POINT_TYPE)),
+		   name);
+	table = new_table_id(schema, name);
+	new_table_describe(table, "lines of a mesh: see abacus_lines()", row, LINE_POINT_COLUMNS);
+	mesh_bind_table(RelationGetRelid(mesh), table);
+	CommandCounterIncrement();
+	return table;
+}
+
+/* Makes the index on places: of a new table when it has its first rows, which is faster. */
+void
+lines_table_index(Relation mesh)
+{
+	Oid			table = mesh_lines_table(mesh, MESH_WRITE);
+
+	create(mesh, psprintf("CREATE INDEX ON %s (x, y)", lines_table_name(table)), get_rel_name(table));
+}
+
+/* The table of the lines of a mesh that has lines, so it must be there. */
+Oid
+lines_table_require(Relation mesh, MeshAccess access)
+{
+	Oid			table = mesh_lines_table(mesh, access);
+
+	if (!OidIsValid(table))
+		ereport(ERROR,
+				(errcode(ERRCODE_UNDEFINED_TABLE),
+				 errmsg("mesh \"%s\" has lines, but no table of lines", RelationGetRelationName(mesh)),
+				 errdetail("There is no table \"%s" LINES_TABLE_SUFFIX "\" of type %s beside it.",
+						   RelationGetRelationName(mesh), LINE_POINT_TYPE),
+				 errhint("After a restore, give the table of lines that name; if it is lost, "
+						 "restore it from a backup.")));
+	return table;
+}

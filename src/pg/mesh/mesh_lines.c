@@ -1,0 +1,250 @@
+/*
+ * mesh_lines.c: the lines of a mesh that is being changed, for the core.
+ *
+ * The core knows which edges are fixed, but not by which lines. It asks for the segments that end at
+ * a place when it frees edges or deletes a vertex. The answer comes from the table of lines, by its
+ * index on places, and from there by the primary key to the neighbours in each line. The writer has
+ * locked the header, so nobody else changes the lines meanwhile. What this transaction has changed
+ * in them is visible.
+ */
+#include "postgres.h"
+
+#include <math.h>
+
+#include "catalog/pg_type.h"
+#include "executor/spi.h"
+#include "utils/memutils.h"
+#include "utils/snapmgr.h"
+
+#include "pg/base/settings.h"
+#include "pg/host/guard.h"
+#include "pg/mesh/lines_table.h"
+#include "pg/mesh/mesh_lines.h"
+#include "pg/port/port.h"
+
+#define ROWS_A_FETCH 1024
+
+/* Questions about the lines of one mesh. */
+typedef struct MeshLines
+{
+	Host	   *host;
+	SPIPlanPtr	plan;			/* NULL before the first question */
+	abacus_segment_end *ends;	/* the last answer */
+	size_t		room;
+	MemoryContextCallback on_end;
+} MeshLines;
+
+static Relation
+mesh_of(const Host *host)
+{
+	return mesh_pages(host)->simplices.heap;
+}
+
+/* ---- Segments at a place ------------------------------------------------------ */
+
+/* Plans the question, for all times that it will be asked. */
+static void
+prepare(MeshLines *lines)
+{
+	/* the point of the same line that comes before or after */
+	static const char *const half =
+		"SELECT p.line, o.x, o.y FROM %1$s AS p, LATERAL ("
+		"SELECT n.x, n.y FROM %1$s AS n WHERE n.line OPERATOR(pg_catalog.=) p.line AND "
+		"n.position OPERATOR(pg_catalog.%2$s) p.position ORDER BY n.position %3$s LIMIT 1) AS o "
+		"WHERE p.x OPERATOR(pg_catalog.=) $1 AND p.y OPERATOR(pg_catalog.=) $2";
+	Oid			types[] = {FLOAT8OID, FLOAT8OID};
+	char	   *table = lines_table_name(lines_table_require(mesh_of(lines->host), MESH_WRITE));
+	char	   *query = psprintf("%s UNION ALL %s", psprintf(half, table, "<", "DESC"),
+								 psprintf(half, table, ">", "ASC"));
+
+	lines->plan = SPI_prepare_cursor(query, lengthof(types), types, CURSOR_OPT_GENERIC_PLAN);
+	if (lines->plan == NULL || SPI_keepplan(lines->plan) != 0)
+		elog(ERROR, "could not prepare the query of lines: %s", SPI_result_code_string(SPI_result));
+}
+
+/* Keeps the rows of the answer. */
+static void
+take_ends(MeshLines *lines, const SPITupleTable *rows, uint64 count)
+{
+	bool		isnull;
+
+	if (count > lines->room)
+	{
+		if (lines->ends != NULL)
+			pfree(lines->ends);
+		lines->ends = MemoryContextAllocHuge(lines->host->home, 2 * count * sizeof(abacus_segment_end));
+		lines->room = 2 * count;
+	}
+	for (uint64 i = 0; i < count; i++)
+	{
+		abacus_segment_end *end = &lines->ends[i];
+
+		end->line = DatumGetInt64(SPI_getbinval(rows->vals[i], rows->tupdesc, 1, &isnull));
+		for (int axis = 0; axis < 2; axis++)
+			end->other[axis] = DatumGetFloat8(SPI_getbinval(rows->vals[i], rows->tupdesc, axis + 2,
+															&isnull));
+	}
+}
+
+static uint64
+find_ends(MeshLines *lines, const double place[2])
+{
+	Datum		arguments[] = {Float8GetDatum(place[0]), Float8GetDatum(place[1])};
+	uint64		count;
+
+	SPI_connect();
+	if (lines->plan == NULL)
+		prepare(lines);
+	/* the writer's snapshot, but with our own changes */
+	PushCopiedSnapshot(GetActiveSnapshot());
+	UpdateActiveSnapshotCommandId();
+	if (SPI_execute_plan(lines->plan, arguments, NULL, true, 0) != SPI_OK_SELECT)
+		elog(ERROR, "could not read the lines: %s", SPI_result_code_string(SPI_result));
+	PopActiveSnapshot();
+	count = SPI_processed;
+	take_ends(lines, SPI_tuptable, count);
+	SPI_finish();
+	return count;
+}
+
+/* Called by the core. */
+static abacus_host_status
+segments_at(void *context, const double place[2], const abacus_segment_end **ends, size_t *count)
+{
+	MeshLines  *lines = context;
+	volatile uint64 found = 0;
+
+	GUARD_BEGIN();
+	found = find_ends(lines, place);
+	GUARD_END(lines->host);
+	*ends = lines->ends;
+	*count = found;
+	return ABACUS_HOST_OK;
+}
+
+static void
+forget_plan(void *context)
+{
+	MeshLines  *lines = context;
+
+	if (lines->plan != NULL)
+		SPI_freeplan(lines->plan);
+}
+
+/* Lets the core ask for the lines of the mesh during a change. */
+void
+mesh_lines_attach(Host *host, abacus_build *build)
+{
+	MeshLines  *lines = MemoryContextAllocZero(host->home, sizeof(MeshLines));
+
+	lines->host = host;
+	lines->on_end.func = forget_plan;
+	lines->on_end.arg = lines;
+	MemoryContextRegisterResetCallback(host->home, &lines->on_end);
+	host_run(host, abacus_build_lines, build, segments_at, lines);
+}
+
+/* ---- All segments --------------------------------------------------------------- */
+
+/* Adds the segments between the rows of one fetch, and the row before it. */
+static void
+add_fetched(Host *host, abacus_segments *segments, double *ends, int64 *line, double *last)
+{
+	const SPITupleTable *rows = SPI_tuptable;
+	size_t		count = 0;
+	bool		isnull;
+
+	for (uint64 i = 0; i < SPI_processed; i++)
+	{
+		int64		of = DatumGetInt64(SPI_getbinval(rows->vals[i], rows->tupdesc, 1, &isnull));
+		double		at[2];
+
+		for (int axis = 0; axis < 2; axis++)
+			at[axis] = DatumGetFloat8(SPI_getbinval(rows->vals[i], rows->tupdesc, axis + 2, &isnull));
+		if (!isnan(last[0]) && of == *line)
+		{
+			memcpy(&ends[4 * count], last, sizeof(at));
+			memcpy(&ends[4 * count + 2], at, sizeof(at));
+			count++;
+		}
+		*line = of;
+		memcpy(last, at, sizeof(at));
+	}
+	host_run(host, abacus_segments_add, segments, ends, count);
+}
+
+/*
+ * Adds the segments of lines: `query` returns line, x and y, in the order of the lines and of the
+ * positions in each. SPI is connected.
+ */
+void
+mesh_lines_add(Host *host, abacus_segments *segments, const char *query)
+{
+	SPIParseOpenOptions options = {.cursorOptions = CURSOR_OPT_NO_SCROLL};
+	Portal		portal = SPI_cursor_parse_open(NULL, query, &options);
+	double	   *ends = palloc(ROWS_A_FETCH * 4 * sizeof(double));
+	double		last[2] = {NAN, NAN};
+	int64		line = 0;
+
+	for (;;)
+	{
+		SPI_cursor_fetch(portal, true, ROWS_A_FETCH);
+		if (SPI_processed == 0)
+			break;
+		add_fetched(host, segments, ends, &line, last);
+		SPI_freetuptable(SPI_tuptable);
+	}
+	SPI_cursor_close(portal);
+	pfree(ends);
+}
+
+/* Opens an empty collection of segments; *segments must be owned by the host's handle. */
+void
+mesh_lines_open(Writer *writer, abacus_segments **segments)
+{
+	Host	   *host = writer->host;
+
+	host_run(host, abacus_segments_open, &host->table, &writer->header->facts, setting_sort_bytes(),
+			 segments);
+}
+
+/*
+ * Fixes the edges of all lines, if lines wait and no point does any more. *segments is NULL, and
+ * owned by the host's handle.
+ */
+void
+mesh_lines_fix_waiting(Writer *writer, abacus_build *build, abacus_segments **segments)
+{
+	Host	   *host = writer->host;
+	abacus_census *census = &writer->header->facts.census;
+
+	if (census->lines_wait == 0 || census->vertices == 0 || census->inserted < census->staged)
+		return;
+	mesh_lines_open(writer, segments);
+	SPI_connect();
+	mesh_lines_add(host, *segments,
+				   psprintf("SELECT line, x, y FROM %s ORDER BY line, position",
+							lines_table_name(lines_table_require(mesh_of(host), MESH_WRITE))));
+	SPI_finish();
+	host_run(host, abacus_build_fix, build, *segments, writer->header);
+	abacus_segments_close(*segments);
+	*segments = NULL;
+	census->lines_wait = 0;
+}
+
+/* An error if all points are about to go, but lines name some of them. */
+void
+mesh_lines_refuse_clearing(const Writer *writer)
+{
+	uint64		lines = writer->header->facts.census.lines;
+
+	if (lines == 0)
+		return;
+	ereport(ERROR,
+			(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
+			 errmsg("cannot remove all points of mesh \"%s\", since it has lines",
+					RelationGetRelationName(mesh_of(writer->host))),
+			 errdetail_plural("It has " UINT64_FORMAT " line.", "It has " UINT64_FORMAT " lines.",
+							  (unsigned long) lines, lines),
+			 errhint("Remove the lines first, with abacus_unconstrain().")));
+}

@@ -1,0 +1,219 @@
+/*
+ * fixed_edges.c: the edges on the lines of a mesh.
+ *
+ * The core follows each segment of each line from edge to edge. An edge of several lines comes once
+ * for each, so the rows are grouped. If only a window is wanted, its edges are found as
+ * abacus_edges() finds them, and joined.
+ */
+#include "postgres.h"
+
+#include <math.h>
+
+#include "catalog/pg_type.h"
+#include "executor/spi.h"
+#include "utils/builtins.h"
+
+#include "abacus/constrain.h"
+#include "pg/base/settings.h"
+#include "pg/host/guard.h"
+#include "pg/mesh/lines_table.h"
+#include "pg/mesh/mesh_cache.h"
+#include "pg/port/port.h"
+#include "pg/sql/constrain/fixed_edges.h"
+#include "pg/sql/constrain/named_rows.h"
+
+/* Rows with names. */
+#define EDGES_ON_LINES "abacus_edges_on_lines"
+#define EDGES_IN_WINDOW "abacus_edges_in_window"
+
+enum
+{
+	EDGE_V0,
+	EDGE_V1,
+	EDGE_ENDS,					/* x and y of v0, then of v1: ids may not be unique */
+	EDGE_LENGTH = EDGE_ENDS + 4,
+	EDGE_LINE,
+	EDGE_IS_HARD,
+	EDGE_COLUMNS
+};
+
+/* The edges of one segment after the other. */
+typedef struct EdgeRows
+{
+	CachedMesh *cached;
+	double		lower[2];		/* a box that contains the window */
+	double		upper[2];
+	NamedRows  *rows;
+	int64		line;
+	bool		is_hard;
+} EdgeRows;
+
+/* Called by the core. */
+static abacus_host_status
+put_edge(void *context, const int64_t ids[2], const double ends[2][2], int is_fixed)
+{
+	EdgeRows   *edges = context;
+	bool		in_order = ids[0] <= ids[1];
+	Datum		values[EDGE_COLUMNS];
+	bool		isnull[EDGE_COLUMNS] = {false};
+
+	if (!is_fixed)
+		return ABACUS_HOST_OK;
+	values[EDGE_V0] = Int64GetDatum(ids[in_order ? 0 : 1]);
+	values[EDGE_V1] = Int64GetDatum(ids[in_order ? 1 : 0]);
+	for (int i = 0; i < 4; i++)
+		values[EDGE_ENDS + i] = Float8GetDatum(ends[(i / 2) ^ !in_order][i % 2]);
+	values[EDGE_LENGTH] = Float8GetDatum(hypot(ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]));
+	values[EDGE_LINE] = Int64GetDatum(edges->line);
+	values[EDGE_IS_HARD] = BoolGetDatum(edges->is_hard);
+	GUARD_BEGIN();
+	named_rows_put(edges->rows, values, isnull);
+	GUARD_END(edges->cached->host);
+	return ABACUS_HOST_OK;
+}
+
+/* Adds the edges of a segment of a line. */
+static void
+add_segment(EdgeRows *edges, const double *a, const double *b)
+{
+	CachedMesh *cached = edges->cached;
+	int			is_whole;
+
+	for (int axis = 0; axis < 2; axis++)
+		if (Max(a[axis], b[axis]) < edges->lower[axis] || Min(a[axis], b[axis]) > edges->upper[axis])
+			return;
+	host_run(cached->host, abacus_edges_along, cached->mesh, a, b, put_edge, edges, &is_whole);
+	host_release(cached->host);
+	if (is_whole || cached->header.facts.census.lines_wait > 0)
+		return;
+	ereport(ERROR,
+			(errcode(ERRCODE_DATA_CORRUPTED),
+			 errmsg("mesh lacks an edge of line " INT64_FORMAT, edges->line),
+			 errdetail("It is on the segment from (%g, %g) to (%g, %g).", a[0], a[1], b[0], b[1])));
+}
+
+/* Adds the edges of all lines. */
+static void
+add_lines(EdgeRows *edges, const char *table)
+{
+	Portal		portal = SPI_cursor_open_with_args(
+		NULL, psprintf("SELECT line, x, y, kind = 'hard' FROM %s ORDER BY line, position", table),
+		0, NULL, NULL, NULL, true, CURSOR_OPT_NO_SCROLL);
+	bool		any = false;
+	double		last[2];
+
+	for (;;)
+	{
+		SPI_cursor_fetch(portal, true, 1024);
+		if (SPI_processed == 0)
+			break;
+		for (uint64 i = 0; i < SPI_processed; i++)
+		{
+			HeapTuple	tuple = SPI_tuptable->vals[i];
+			TupleDesc	desc = SPI_tuptable->tupdesc;
+			bool		isnull;
+			int64		line = DatumGetInt64(SPI_getbinval(tuple, desc, 1, &isnull));
+			double		at[2];
+
+			for (int axis = 0; axis < 2; axis++)
+				at[axis] = DatumGetFloat8(SPI_getbinval(tuple, desc, 2 + axis, &isnull));
+			edges->is_hard = DatumGetBool(SPI_getbinval(tuple, desc, 4, &isnull));
+			if (any && line == edges->line)
+				add_segment(edges, last, at);
+			any = true;
+			edges->line = line;
+			memcpy(last, at, sizeof(at));
+		}
+		SPI_freetuptable(SPI_tuptable);
+	}
+	SPI_cursor_close(portal);
+}
+
+/* The box that contains the window. */
+static void
+bound(EdgeRows *edges, const abacus_window *window)
+{
+	for (int axis = 0; axis < 2; axis++)
+	{
+		bool		is_ball = window->kind == ABACUS_BALL_WINDOW;
+		bool		is_whole = window->kind == ABACUS_NO_WINDOW;
+
+		edges->lower[axis] = is_whole ? -INFINITY
+			: is_ball ? window->center[axis] - window->radius : window->lower[axis];
+		edges->upper[axis] = is_whole ? INFINITY
+			: is_ball ? window->center[axis] + window->radius : window->upper[axis];
+	}
+}
+
+/* The edges of the window, whether they are fixed or not. */
+static NamedRows *
+read_window(Reader *reader, const abacus_window *window, double max_edge)
+{
+	static const NamedColumn columns[] = {
+		{"v0", INT8OID}, {"v1", INT8OID}, {"x0", FLOAT8OID}, {"y0", FLOAT8OID}, {"x1", FLOAT8OID},
+		{"y1", FLOAT8OID}
+	};
+	NamedRows  *rows = named_rows_create(EDGES_IN_WINDOW, columns, lengthof(columns));
+	Host	   *host = reader->host;
+	abacus_faces *faces = NULL;
+	abacus_edge edge;
+	double		ends[4];
+
+	host_run(host, abacus_faces_open, &host->table, &reader->header.facts, window, true, max_edge,
+			 setting_cache_bytes(), &faces);
+	host_own(host, faces, (void (*) (void *)) abacus_faces_close);
+	while (host_run(host, abacus_faces_next_edge, faces, &edge, ends) != ABACUS_END)
+	{
+		Datum		values[6] = {Int64GetDatum(edge.id[0]), Int64GetDatum(edge.id[1])};
+		bool		isnull[6] = {false};
+
+		for (int i = 0; i < 4; i++)
+			values[2 + i] = Float8GetDatum(ends[i]);
+		named_rows_put(rows, values, isnull);
+	}
+	host_release(host);
+	named_rows_register(rows);
+	return rows;
+}
+
+/*
+ * Puts the fixed edges of a mesh, or of a window, into the result of a function: v0, v1, length,
+ * lines, kind.
+ */
+void
+fixed_edges_put(Reader *reader, const abacus_window *window, double max_edge, ReturnSetInfo *set)
+{
+	static const NamedColumn columns[] = {
+		{"v0", INT8OID}, {"v1", INT8OID}, {"x0", FLOAT8OID}, {"y0", FLOAT8OID}, {"x1", FLOAT8OID},
+		{"y1", FLOAT8OID}, {"length", FLOAT8OID}, {"line", INT8OID}, {"is_hard", BOOLOID}
+	};
+	const MeshPages *pages = mesh_pages(reader->host);
+	bool		is_part = window->kind != ABACUS_NO_WINDOW || max_edge > 0;
+	EdgeRows	edges = {0};
+	NamedRows  *part = NULL;
+	char	   *table;
+	int			level;
+
+	if (reader->header.facts.census.lines == 0 || reader->header.facts.census.vertices == 0)
+		return;
+	table = lines_table_name(lines_table_require(pages->simplices.heap, MESH_READ));
+	SPI_connect();
+	edges.cached = mesh_cache_get(pages->mesh);
+	edges.rows = named_rows_create(EDGES_ON_LINES, columns, lengthof(columns));
+	bound(&edges, window);
+	level = plain_names_begin(false);
+	add_lines(&edges, table);
+	named_rows_register(edges.rows);
+	if (is_part)
+		part = read_window(reader, window, max_edge);
+	query_into(set->setResult,
+			   psprintf("SELECT e.v0, e.v1, min(e.length), array_agg(DISTINCT e.line ORDER BY e.line), "
+						"CASE WHEN bool_or(e.is_hard) THEN 'hard' ELSE 'soft' END FROM " EDGES_ON_LINES
+						" AS e%s GROUP BY e.v0, e.v1, e.x0, e.y0, e.x1, e.y1 ORDER BY e.v0, e.v1",
+						is_part ? " JOIN " EDGES_IN_WINDOW " AS w USING (v0, v1, x0, y0, x1, y1)" : ""));
+	plain_names_end(level);
+	named_rows_free(edges.rows);
+	if (part != NULL)
+		named_rows_free(part);
+	SPI_finish();
+}

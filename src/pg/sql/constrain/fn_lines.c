@@ -1,0 +1,51 @@
+/*
+ * fn_lines.c: abacus_lines, the lines of a mesh as they were given.
+ */
+#include "postgres.h"
+
+#include "executor/spi.h"
+#include "funcapi.h"
+
+#include "pg/base/sql_function.h"
+#include "pg/mesh/lines_table.h"
+#include "pg/mesh/mesh_pages.h"
+#include "pg/mesh/reader.h"
+#include "pg/port/port.h"
+#include "pg/sql/constrain/named_rows.h"
+
+SQL_FUNCTION(abacus_sql_lines);
+
+/* The table of the lines of a mesh, as a name in SQL; NULL if it has no lines. */
+static char *
+table_of(Oid mesh)
+{
+	Reader	   *reader = reader_open(mesh, CurrentMemoryContext);
+	char	   *name = NULL;
+
+	if (reader->header.facts.census.lines > 0)
+		name = lines_table_name(lines_table_require(mesh_pages(reader->host)->simplices.heap, MESH_READ));
+	host_release(reader->host);
+	host_destroy(reader->host);
+	return name;
+}
+
+/* abacus_lines(mesh regclass) -> line, position, point, x, y, kind */
+Datum
+abacus_sql_lines(PG_FUNCTION_ARGS)
+{
+	ReturnSetInfo *set = (ReturnSetInfo *) fcinfo->resultinfo;
+	char	   *table;
+	int			level;
+
+	InitMaterializedSRF(fcinfo, 0);
+	table = table_of(PG_GETARG_OID(0));
+	if (table == NULL)
+		PG_RETURN_NULL();
+	SPI_connect();
+	level = plain_names_begin(false);
+	query_into(set->setResult, psprintf("SELECT line, position, point, x, y, kind FROM %s "
+										"ORDER BY line, position", table));
+	plain_names_end(level);
+	SPI_finish();
+	PG_RETURN_NULL();
+}

@@ -1,0 +1,317 @@
+/*
+ * line_points.c: the points of lines that a query gives: checked, found in the mesh, or new.
+ *
+ * All is SQL over the rows of the query (LINE_ROWS), the points of the mesh that have their ids or
+ * their places (FOUND), and what comes of both (LINE_POINTS). One scan of the mesh finds the points,
+ * and another one the greatest id if points without id are new.
+ */
+#include "postgres.h"
+
+#include "catalog/pg_type.h"
+#include "utils/builtins.h"
+
+#include "pg/sql/constrain/line_points.h"
+
+#define FOUND "abacus_found"
+
+static char *
+number_of(Datum value)
+{
+	return psprintf("%.17g", DatumGetFloat8(value));
+}
+
+/* A double for messages: the fewest digits that say which. */
+static char *
+shown(Datum value)
+{
+	return DatumGetCString(DirectFunctionCall1(float8out, value));
+}
+
+/* "(1, 2)", from two values of a row. */
+static char *
+place(const Datum *values)
+{
+	return psprintf("(%s, %s)", shown(values[0]), shown(values[1]));
+}
+
+/* ---- Checks of the rows alone ------------------------------------------------------ */
+
+static void
+check_positions(void)
+{
+	Datum		values[2];
+	bool		isnull[2];
+
+	if (query_first("SELECT line, position FROM " LINE_ROWS " GROUP BY line, position "
+					"HAVING count(*) > 1 ORDER BY line, position LIMIT 1", values, isnull, 2))
+		ereport(ERROR,
+				(errcode(ERRCODE_UNIQUE_VIOLATION),
+				 errmsg("line " INT64_FORMAT " has position " INT64_FORMAT " twice",
+						DatumGetInt64(values[0]), DatumGetInt64(values[1])),
+				 errhint("Number the points of each line in their order, for instance with row_number().")));
+	if (query_first("SELECT line FROM " LINE_ROWS " GROUP BY line HAVING count(*) = 1 ORDER BY line LIMIT 1",
+					values, isnull, 1))
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+				 errmsg("line " INT64_FORMAT " has only one point", DatumGetInt64(values[0])),
+				 errhint("A line has two points or more. A single point is inserted by abacus_insert().")));
+}
+
+/* The place that a row gives for an id, the least or the greatest. */
+#define GIVEN_AT \
+	"SELECT x, y, line, position FROM " LINE_ROWS " WHERE point = '" INT64_FORMAT \
+	"' ORDER BY x %s, y %s, line, position LIMIT 1"
+
+/* An id that rows give with two places. */
+static void
+check_ids(void)
+{
+	Datum		values[2];
+	Datum		first[4];
+	Datum		second[4];
+	bool		isnull[4];
+	int64		id;
+
+	if (!query_first("SELECT point FROM " LINE_ROWS " WHERE point IS NOT NULL GROUP BY point "
+					 "HAVING min(x) <> max(x) OR min(y) <> max(y) ORDER BY point LIMIT 1", values, isnull, 1))
+		return;
+	id = DatumGetInt64(values[0]);
+	query_first(psprintf(GIVEN_AT, id, "ASC", "ASC"), first, isnull, 4);
+	query_first(psprintf(GIVEN_AT, id, "DESC", "DESC"), second, isnull, 4);
+	ereport(ERROR,
+			(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+			 errmsg("point " INT64_FORMAT " is given with two places", id),
+			 errdetail("It is %s at position " INT64_FORMAT " of line " INT64_FORMAT ", and %s at position "
+					   INT64_FORMAT " of line " INT64_FORMAT ".", place(first), DatumGetInt64(first[3]),
+					   DatumGetInt64(first[2]), place(second), DatumGetInt64(second[3]),
+					   DatumGetInt64(second[2])),
+			 errhint("Give each place an id of its own, or NULL.")));
+}
+
+/* Checks that need no mesh. */
+void
+line_points_check(const NewLines *lines)
+{
+	check_positions();
+	if (lines->shape.has_places)
+		check_ids();
+}
+
+/* ---- Points of the mesh -------------------------------------------------------------- */
+
+/* Finds the points of the mesh with the ids of rows, or at their places. */
+static NamedRows *
+find(const NewLines *lines)
+{
+	static const NamedColumn columns[] = {
+		{"id", INT8OID}, {"x", FLOAT8OID}, {"y", FLOAT8OID}, {"vertex", INT8OID},
+		{"sequence", INT8OID}, {"attributes", FLOAT8ARRAYOID}, {"by_id", BOOLOID}
+	};
+	const char *attributes = lines->shape.has_attributes ? "v.attributes" : "NULL::float8[]";
+
+	const char *query = lines->shape.has_nameless || lines->shape.has_attributes
+		? "SELECT v.id, v.x, v.y, v.vertex, v.sequence, %s, g.point IS NOT NULL FROM %s AS v "
+		"LEFT JOIN (SELECT DISTINCT point FROM " LINE_ROWS ") AS g ON g.point = v.id "
+		"LEFT JOIN (SELECT DISTINCT x, y FROM " LINE_ROWS ") AS p ON p.x = v.x AND p.y = v.y "
+		"WHERE g.point IS NOT NULL OR p.x IS NOT NULL"
+		: "SELECT v.id, v.x, v.y, v.vertex, v.sequence, %s, true FROM %s AS v "
+		"JOIN (SELECT DISTINCT point FROM " LINE_ROWS ") AS g ON g.point = v.id";
+
+	return named_rows_of_query(FOUND, columns, lengthof(columns),
+							   psprintf(query, attributes, lines->vertices));
+}
+
+/* An id that the mesh has at two places. */
+static void
+check_found_ids(void)
+{
+	Datum		values[5];
+	bool		isnull[5];
+
+	if (query_first("SELECT id, min(x), min(y), max(x), max(y) FROM " FOUND " WHERE by_id GROUP BY id "
+					"HAVING min(x) <> max(x) OR min(y) <> max(y) ORDER BY id LIMIT 1", values, isnull, 5))
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+				 errmsg("several points of the mesh have the id " INT64_FORMAT, DatumGetInt64(values[0])),
+				 errdetail("Their x is from %s to %s, and their y from %s to %s.", shown(values[1]),
+						   shown(values[3]), shown(values[2]), shown(values[4])),
+				 errhint("Give NULL instead of the id, and x and y: the point is then found by its place.")));
+}
+
+/* An id without coordinates that the mesh does not have. */
+static void
+check_known(void)
+{
+	Datum		values[3];
+	bool		isnull[3];
+
+	if (query_first("SELECT g.point, g.line, g.position FROM " LINE_ROWS " AS g "
+					"LEFT JOIN " FOUND " AS f ON f.id = g.point WHERE f.id IS NULL "
+					"ORDER BY g.line, g.position LIMIT 1", values, isnull, 3))
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+				 errmsg("mesh has no point " INT64_FORMAT, DatumGetInt64(values[0])),
+				 errdetail("It is at position " INT64_FORMAT " of line " INT64_FORMAT ".",
+						   DatumGetInt64(values[2]), DatumGetInt64(values[1])),
+				 errhint("Insert it first with abacus_insert(), or give x and y after the id.")));
+}
+
+/* An id that rows give with another place than the mesh. */
+static void
+check_places(void)
+{
+	Datum		values[7];
+	bool		isnull[7];
+
+	if (query_first("SELECT g.point, g.line, g.position, g.x, g.y, f.x, f.y FROM " LINE_ROWS " AS g "
+					"JOIN " FOUND " AS f ON f.id = g.point AND f.by_id WHERE f.x <> g.x OR f.y <> g.y "
+					"ORDER BY g.line, g.position LIMIT 1", values, isnull, 7))
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+				 errmsg("point " INT64_FORMAT " is at another place in the mesh", DatumGetInt64(values[0])),
+				 errdetail("It is %s at position " INT64_FORMAT " of line " INT64_FORMAT ", and %s in the mesh.",
+						   place(values + 3), DatumGetInt64(values[2]), DatumGetInt64(values[1]),
+						   place(values + 5)),
+				 errhint("Give the place of the mesh, another id, or NULL.")));
+}
+
+/* ---- Attributes ------------------------------------------------------------------------ */
+
+/* All values of attributes at places of rows, of the rows and of vertices. */
+#define VALUES_AT_PLACES \
+	"(SELECT g.x, g.y, a.n, a.value, concat('position ', g.position, ' of line ', g.line) AS what FROM " \
+	LINE_ROWS " AS g, unnest(g.attributes) WITH ORDINALITY AS a (value, n) " \
+	"UNION ALL " \
+	"SELECT f.x, f.y, a.n, a.value, concat('vertex ', f.id) FROM " FOUND \
+	" AS f, unnest(f.attributes) WITH ORDINALITY AS a (value, n) WHERE f.vertex = f.id) AS s"
+
+/* What gives the least or the greatest value of an attribute at a place. */
+static char *
+giver(const Datum *values, const char *order)
+{
+	Datum		what;
+	bool		isnull;
+
+	if (!query_first(psprintf("SELECT what FROM " VALUES_AT_PLACES " WHERE x = '%s'::float8 AND "
+							  "y = '%s'::float8 AND n = " INT64_FORMAT " AND value IS NOT NULL "
+							  "ORDER BY value %s LIMIT 1", number_of(values[0]), number_of(values[1]),
+							  DatumGetInt64(values[2]), order), &what, &isnull, 1))
+		return pstrdup("");
+	return TextDatumGetCString(what);
+}
+
+/* An attribute with two values at one place. */
+static void
+check_attributes(const NewLines *lines)
+{
+	Datum		values[5];
+	bool		isnull[5];
+
+	if (query_first("SELECT x, y, n, min(value), max(value) FROM " VALUES_AT_PLACES
+					" GROUP BY x, y, n HAVING min(value) <> max(value) ORDER BY x, y, n LIMIT 1",
+					values, isnull, 5))
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+				 errmsg("attribute \"%s\" has two values at %s", lines->names.of[DatumGetInt64(values[2]) - 1],
+						place(values)),
+				 errdetail("It is %s at %s, and %s at %s.", shown(values[3]), giver(values, "ASC"),
+						   shown(values[4]), giver(values, "DESC")),
+				 errhint("Give one of them, or NULL.")));
+}
+
+/* ---- Points of the lines ----------------------------------------------------------------- */
+
+/* The id above which new ids begin. */
+static int64
+greatest_id(const NewLines *lines)
+{
+	Datum		value;
+	bool		isnull;
+
+	query_first(psprintf("SELECT greatest((SELECT max(v.id) FROM %s AS v), (SELECT max(g.point) FROM " LINE_ROWS
+						 " AS g))", lines->vertices), &value, &isnull, 1);
+	return isnull ? 0 : DatumGetInt64(value);
+}
+
+/*
+ * The points of lines whose rows have places, if some have no id. The vertex at the place is meant,
+ * or else the first point that a row names there, or else a new one.
+ */
+static const char *
+points_by_place(const NewLines *lines)
+{
+	return psprintf(
+		"WITH there AS (SELECT x, y, coalesce(min(vertex), (array_agg(id ORDER BY sequence))[1]) AS id "
+		" FROM " FOUND " GROUP BY x, y), "
+		"named AS (SELECT DISTINCT ON (x, y) x, y, point AS id FROM " LINE_ROWS " WHERE point IS NOT NULL "
+		" ORDER BY x, y, line, position), "
+		"nameless AS (SELECT DISTINCT ON (x, y) x, y, line, position FROM " LINE_ROWS " WHERE point IS NULL "
+		" ORDER BY x, y, line, position), "
+		"known AS (SELECT n.x, n.y, n.line, n.position, coalesce(there.id, named.id) AS id "
+		" FROM nameless AS n LEFT JOIN there ON there.x = n.x AND there.y = n.y "
+		" LEFT JOIN named ON named.x = n.x AND named.y = n.y), "
+		"numbered AS (SELECT x, y, id, false AS is_new FROM known WHERE id IS NOT NULL UNION ALL "
+		" SELECT x, y, '" INT64_FORMAT "'::bigint + row_number() OVER (ORDER BY line, position), true "
+		" FROM known WHERE id IS NULL) "
+		"SELECT g.line, g.position, coalesce(g.point, n.id), g.x, g.y, g.attributes, "
+		" CASE WHEN g.point IS NULL THEN n.is_new ELSE f.id IS NULL END "
+		"FROM " LINE_ROWS " AS g "
+		"LEFT JOIN numbered AS n ON g.point IS NULL AND n.x = g.x AND n.y = g.y "
+		"LEFT JOIN (SELECT DISTINCT id FROM " FOUND " WHERE by_id) AS f ON f.id = g.point",
+		greatest_id(lines));
+}
+
+/* The query that finds the points of lines. */
+static const char *
+points_query(const NewLines *lines)
+{
+	if (lines->shape.has_nameless)
+		return points_by_place(lines);
+	return lines->shape.has_places
+		? "SELECT g.line, g.position, g.point, g.x, g.y, g.attributes, f.id IS NULL FROM " LINE_ROWS " AS g "
+		"LEFT JOIN (SELECT DISTINCT id FROM " FOUND " WHERE by_id) AS f ON f.id = g.point"
+		: "SELECT g.line, g.position, g.point, f.x, f.y, NULL::float8[], false FROM " LINE_ROWS " AS g "
+		"JOIN (SELECT DISTINCT id, x, y FROM " FOUND ") AS f ON f.id = g.point";
+}
+
+static void
+check_lengths(void)
+{
+	Datum		values[5];
+	bool		isnull[5];
+
+	if (query_first("SELECT x, y, line, before, position FROM (SELECT x, y, line, position, lag(x) OVER w AS x0, "
+					"lag(y) OVER w AS y0, lag(position) OVER w AS before FROM " LINE_POINTS
+					" WINDOW w AS (PARTITION BY line ORDER BY position)) AS s WHERE x = x0 AND y = y0 "
+					"ORDER BY line, position LIMIT 1", values, isnull, 5))
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+				 errmsg("line " INT64_FORMAT " has a segment of length zero", DatumGetInt64(values[2])),
+				 errdetail("Its positions " INT64_FORMAT " and " INT64_FORMAT " are both at %s.",
+						   DatumGetInt64(values[3]), DatumGetInt64(values[4]), place(values)),
+				 errhint("Leave one of the two points out.")));
+}
+
+/* Finds the points of the lines in the mesh, or chooses new ids for them: LINE_POINTS. */
+NamedRows *
+line_points_find(const NewLines *lines)
+{
+	static const NamedColumn columns[] = {
+		{"line", INT8OID}, {"position", INT8OID}, {"point", INT8OID}, {"x", FLOAT8OID},
+		{"y", FLOAT8OID}, {"attributes", FLOAT8ARRAYOID}, {"is_new", BOOLOID}
+	};
+	NamedRows  *found = find(lines);
+	NamedRows  *points;
+
+	check_found_ids();
+	if (lines->shape.has_places)
+		check_places();
+	else
+		check_known();
+	if (lines->shape.has_attributes)
+		check_attributes(lines);
+	points = named_rows_of_query(LINE_POINTS, columns, lengthof(columns), points_query(lines));
+	named_rows_free(found);
+	check_lengths();
+	return points;
+}

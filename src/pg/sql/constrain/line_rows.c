@@ -1,0 +1,334 @@
+/*
+ * line_rows.c: reads the rows of a query that gives lines: line, position and point id, perhaps
+ * with x, y and attributes. Another shape of rows, geometries for instance, would be one more
+ * function that puts the same rows.
+ */
+#include "postgres.h"
+
+#include <math.h>
+
+#include "catalog/pg_type.h"
+#include "utils/builtins.h"
+#include "utils/float.h"
+#include "utils/lsyscache.h"
+#include "utils/memutils.h"
+
+#include "pg/base/float_array.h"
+#include "pg/sql/constrain/line_rows.h"
+
+#define ROWS_A_FETCH 1024
+
+static const char *const column_names[] = {"line", "position", "point id", "x", "y"};
+
+/* How the columns of a query are read. */
+typedef struct LineReader
+{
+	NamedRows  *rows;
+	TupleDesc	desc;			/* of the query */
+	Oid		   *types;			/* of its columns, without domains */
+	int			ids;			/* so many columns are integers; the others are numbers */
+	uint32	   *attributes;		/* of the columns after x and y: numbers in the mesh */
+	uint32		count;			/* attributes of the mesh */
+	uint64		row;			/* for messages */
+	bool		any_nameless;	/* so far */
+} LineReader;
+
+/* ---- Columns --------------------------------------------------------------------- */
+
+static bool
+is_integer(Oid type)
+{
+	return type == INT2OID || type == INT4OID || type == INT8OID;
+}
+
+static bool
+is_number(Oid type)
+{
+	return is_integer(type) || type == FLOAT4OID || type == FLOAT8OID || type == NUMERICOID;
+}
+
+/* Whether the column may be a bare NULL, which has the type text. */
+static bool
+may_be_null(int column)
+{
+	return column == LINE_ROW_POINT || column > LINE_ROW_Y;
+}
+
+static void
+check_types(const LineReader *reader)
+{
+	for (int i = 0; i < reader->desc->natts; i++)
+	{
+		Oid			type = reader->types[i];
+
+		if ((i < reader->ids ? is_integer(type) : is_number(type)) ||
+			(type == TEXTOID && may_be_null(i) && reader->desc->natts > reader->ids))
+			continue;
+		ereport(ERROR,
+				(errcode(ERRCODE_DATATYPE_MISMATCH),
+				 errmsg("column %d of the query of lines has type %s", i + 1,
+						format_type_be(TupleDescAttr(reader->desc, i)->atttypid)),
+				 i < reader->ids ? errdetail("It is the %s, which is an integer.", column_names[i])
+				 : i <= LINE_ROW_Y ? errdetail("It is %s, which is a number.", column_names[i])
+				 : errdetail("It is the attribute \"%s\", which is a number.",
+							 NameStr(TupleDescAttr(reader->desc, i)->attname)),
+				 errhint("Cast the column in the query.")));
+	}
+}
+
+/* The attribute with the name of a column. */
+static uint32
+find_attribute(abacus_names names, const char *name)
+{
+	for (uint32 i = 0; i < names.facts->columns.attributes; i++)
+		if (strcmp(names.of[i], name) == 0)
+			return i;
+	ereport(ERROR,
+			(errcode(ERRCODE_UNDEFINED_COLUMN),
+			 errmsg("mesh has no attribute \"%s\"", name),
+			 errdetail("Columns of the query of lines after x and y are attributes of the mesh, by name."),
+			 errhint("Rename the column, or leave it out.")));
+	return 0;					/* not reached */
+}
+
+static void
+find_attributes(LineReader *reader, abacus_names names)
+{
+	int			first = LINE_ROW_Y + 1;
+
+	reader->count = names.facts->columns.attributes;
+	reader->attributes = palloc(reader->desc->natts * sizeof(uint32));
+	for (int i = first; i < reader->desc->natts; i++)
+	{
+		const char *name = NameStr(TupleDescAttr(reader->desc, i)->attname);
+
+		reader->attributes[i] = find_attribute(names, name);
+		for (int j = first; j < i; j++)
+			if (reader->attributes[j] == reader->attributes[i])
+				ereport(ERROR,
+						(errcode(ERRCODE_DUPLICATE_COLUMN),
+						 errmsg("the query of lines returns attribute \"%s\" twice", name)));
+	}
+}
+
+static void
+refuse_count(int count, const char *detail, const char *hint)
+{
+	ereport(ERROR,
+			(errcode(ERRCODE_DATATYPE_MISMATCH),
+			 errmsg_plural("the query of lines returns %d column", "the query of lines returns %d columns",
+						   (unsigned long) count, count),
+			 errdetail("%s", detail), errhint("%s", hint)));
+}
+
+static void
+open_query(LineReader *reader, Source *source)
+{
+	source->portal = SPI_cursor_open(NULL, source->plan, NULL, NULL, true);
+	reader->desc = source->portal->tupDesc;
+	reader->types = palloc(reader->desc->natts * sizeof(Oid));
+	for (int i = 0; i < reader->desc->natts; i++)
+		reader->types[i] = getBaseType(TupleDescAttr(reader->desc, i)->atttypid);
+}
+
+/* ---- Values ---------------------------------------------------------------------- */
+
+static int64
+to_integer(Oid type, Datum value)
+{
+	return type == INT8OID ? DatumGetInt64(value)
+		: type == INT4OID ? DatumGetInt32(value) : DatumGetInt16(value);
+}
+
+static double
+to_number(Oid type, Datum value)
+{
+	switch (type)
+	{
+		case FLOAT8OID:
+			return DatumGetFloat8(value);
+		case FLOAT4OID:
+			return DatumGetFloat4(value);
+		case NUMERICOID:
+			return DatumGetFloat8(DirectFunctionCall1(numeric_float8_no_overflow, value));
+		default:
+			return (double) to_integer(type, value);
+	}
+}
+
+static void
+refuse_null(const LineReader *reader, const Datum *values, int column)
+{
+	if (column == LINE_ROW_LINE)
+		ereport(ERROR,
+				(errcode(ERRCODE_NULL_VALUE_NOT_ALLOWED),
+				 errmsg("line of row " UINT64_FORMAT " is NULL", reader->row),
+				 errhint("Leave such rows out with a WHERE clause.")));
+	if (column == LINE_ROW_POSITION)
+		ereport(ERROR,
+				(errcode(ERRCODE_NULL_VALUE_NOT_ALLOWED),
+				 errmsg("a position in line " INT64_FORMAT " is NULL", DatumGetInt64(values[0])),
+				 errhint("Number the points of each line in their order, for instance with row_number().")));
+	ereport(ERROR,
+			(errcode(ERRCODE_NULL_VALUE_NOT_ALLOWED),
+			 errmsg("%s at position " INT64_FORMAT " of line " INT64_FORMAT " is NULL",
+					column_names[column], DatumGetInt64(values[1]), DatumGetInt64(values[0])),
+			 column == LINE_ROW_POINT
+			 ? errhint("Give x and y after it, and the point is the vertex there, or a new one.")
+			 : errhint("Leave such rows out with a WHERE clause.")));
+}
+
+static void
+refuse_text(const LineReader *reader, int column)
+{
+	ereport(ERROR,
+			(errcode(ERRCODE_DATATYPE_MISMATCH),
+			 errmsg("column %d of the query of lines has type text", column + 1),
+			 errhint("Cast the column in the query.")));
+}
+
+/* Reads the ids of a row; which may be NULL depends on the shape of the rows. */
+static void
+read_ids(LineReader *reader, HeapTuple tuple, bool has_places, Datum *values, bool *isnull)
+{
+	for (int i = 0; i < reader->ids; i++)
+	{
+		values[i] = SPI_getbinval(tuple, reader->desc, i + 1, &isnull[i]);
+		if (isnull[i])
+		{
+			if (!has_places || i != LINE_ROW_POINT)
+				refuse_null(reader, values, i);
+			reader->any_nameless = true;
+			continue;
+		}
+		if (!is_integer(reader->types[i]))
+			refuse_text(reader, i);
+		values[i] = Int64GetDatum(to_integer(reader->types[i], values[i]));
+	}
+}
+
+static void
+read_place(const LineReader *reader, HeapTuple tuple, Datum *values, bool *isnull)
+{
+	for (int i = LINE_ROW_X; i <= LINE_ROW_Y; i++)
+	{
+		Datum		value = SPI_getbinval(tuple, reader->desc, i + 1, &isnull[i]);
+		double		number;
+
+		if (isnull[i])
+			refuse_null(reader, values, i);
+		number = to_number(reader->types[i], value);
+		if (!isfinite(number))
+			ereport(ERROR,
+					(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+					 errmsg("%s at position " INT64_FORMAT " of line " INT64_FORMAT " is %s",
+							column_names[i], DatumGetInt64(values[1]), DatumGetInt64(values[0]),
+							isnan(number) ? "NaN" : "infinite"),
+					 errhint("Leave such rows out with a WHERE clause.")));
+		values[i] = Float8GetDatum(number + 0.0);	/* no negative zero */
+	}
+}
+
+static void
+read_attributes(const LineReader *reader, HeapTuple tuple, Datum *values, bool *isnull)
+{
+	double		numbers[ABACUS_MAX_ATTRIBUTES];
+
+	isnull[LINE_ROW_ATTRIBUTES] = reader->desc->natts <= LINE_ROW_Y + 1;
+	if (isnull[LINE_ROW_ATTRIBUTES])
+		return;
+	for (uint32 i = 0; i < reader->count; i++)
+		numbers[i] = NAN;
+	for (int i = LINE_ROW_Y + 1; i < reader->desc->natts; i++)
+	{
+		bool		none;
+		Datum		value = SPI_getbinval(tuple, reader->desc, i + 1, &none);
+
+		if (!none && !is_number(reader->types[i]))
+			refuse_text(reader, i);
+		if (!none)
+			numbers[reader->attributes[i]] = to_number(reader->types[i], value);
+	}
+	values[LINE_ROW_ATTRIBUTES] = attribute_array(numbers, (int) reader->count);
+}
+
+/* ---- Rows ------------------------------------------------------------------------ */
+
+/* Reads all rows; rows of ids alone have the first column only. */
+static void
+read_rows(LineReader *reader, Source *source, bool has_places)
+{
+	MemoryContext row = AllocSetContextCreate(CurrentMemoryContext, "Abacus line row",
+											  ALLOCSET_DEFAULT_SIZES);
+
+	for (;;)
+	{
+		SPI_cursor_fetch(source->portal, true, ROWS_A_FETCH);
+		if (SPI_processed == 0)
+			break;
+		for (uint64 i = 0; i < SPI_processed; i++)
+		{
+			HeapTuple	tuple = SPI_tuptable->vals[i];
+			Datum		values[LINE_ROW_COLUMNS];
+			bool		isnull[LINE_ROW_COLUMNS];
+			MemoryContext old = MemoryContextSwitchTo(row);
+
+			memset(isnull, true, sizeof(isnull));
+			reader->row++;
+			read_ids(reader, tuple, has_places, values, isnull);
+			if (has_places)
+			{
+				read_place(reader, tuple, values, isnull);
+				read_attributes(reader, tuple, values, isnull);
+			}
+			named_rows_put(reader->rows, values, isnull);
+			MemoryContextSwitchTo(old);
+			MemoryContextReset(row);
+		}
+		SPI_freetuptable(SPI_tuptable);
+	}
+	source_close(source);
+	MemoryContextDelete(row);
+}
+
+/* Reads the rows of a prepared query that gives lines for a mesh with these names. */
+NamedRows *
+line_rows_read(Source *source, abacus_names names, LineShape *shape)
+{
+	static const NamedColumn columns[] = {
+		{"line", INT8OID}, {"position", INT8OID}, {"point", INT8OID}, {"x", FLOAT8OID},
+		{"y", FLOAT8OID}, {"attributes", FLOAT8ARRAYOID}
+	};
+	LineReader	reader = {.ids = LINE_ROW_POINT + 1};
+
+	open_query(&reader, source);
+	if (reader.desc->natts < 3 || reader.desc->natts == 4)
+		refuse_count(reader.desc->natts, "Rows of lines have three columns, or five and more.",
+					 "Return line, position and the id of a point; x, y and attributes may follow.");
+	shape->has_places = reader.desc->natts > reader.ids;
+	shape->has_attributes = reader.desc->natts > LINE_ROW_Y + 1;
+	check_types(&reader);
+	if (shape->has_places)
+		find_attributes(&reader, names);
+	reader.rows = named_rows_create(LINE_ROWS, columns, lengthof(columns));
+	read_rows(&reader, source, shape->has_places);
+	shape->has_nameless = reader.any_nameless;
+	return reader.rows;
+}
+
+/* Reads the rows of a prepared query that gives ids of lines. */
+NamedRows *
+line_ids_read(Source *source)
+{
+	static const NamedColumn columns[] = {{"line", INT8OID}};
+	LineReader	reader = {.ids = 1};
+
+	open_query(&reader, source);
+	if (reader.desc->natts != 1)
+		refuse_count(reader.desc->natts, "Rows have one column, the id of a line.",
+					 "Return the ids alone.");
+	check_types(&reader);
+	reader.rows = named_rows_create(LINE_IDS, columns, lengthof(columns));
+	read_rows(&reader, source, false);
+	return reader.rows;
+}

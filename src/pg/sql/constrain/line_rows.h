@@ -1,0 +1,38 @@
+/*
+ * line_rows.h: the rows of a query that gives lines, or only their ids, read as rows with a name
+ * (named_rows.h).
+ */
+#ifndef ABACUS_LINE_ROWS_H
+#define ABACUS_LINE_ROWS_H
+
+#include "abacus/mesh_header.h"
+#include "pg/input/source.h"
+#include "pg/sql/constrain/named_rows.h"
+
+/* The columns of the rows of lines; the last is NULL if the query has no attributes. */
+enum
+{
+	LINE_ROW_LINE,
+	LINE_ROW_POSITION,
+	LINE_ROW_POINT,				/* the id; may be NULL if there are coordinates */
+	LINE_ROW_X,
+	LINE_ROW_Y,
+	LINE_ROW_ATTRIBUTES,		/* in the order of the mesh; NaN is none */
+	LINE_ROW_COLUMNS
+};
+
+/* What the rows of a query of lines have. */
+typedef struct LineShape
+{
+	bool		has_places;		/* x and y after the ids */
+	bool		has_nameless;	/* rows whose id is NULL */
+	bool		has_attributes;
+} LineShape;
+
+#define LINE_ROWS "abacus_given"
+#define LINE_IDS "abacus_lines_given"
+
+extern NamedRows *line_rows_read(Source *source, abacus_names names, LineShape *shape);
+extern NamedRows *line_ids_read(Source *source);
+
+#endif

@@ -1,0 +1,173 @@
+-- Lines of a mesh: the interface, and every error of their rows; nothing is changed by any of them.
+BEGIN;
+SELECT no_plan();
+
+SELECT has_type('abacus_line_point');
+SELECT function_returns('abacus_constrain', ARRAY['regclass', 'text', 'text', 'text', 'text'], 'bigint');
+SELECT function_returns('abacus_unconstrain', ARRAY['regclass', 'text'], 'bigint');
+SELECT function_returns('abacus_lines', ARRAY['regclass'], 'setof record');
+SELECT is((SELECT count(*) FROM pg_attribute AS a, col_description(a.attrelid, a.attnum) AS d
+           WHERE a.attrelid = 'abacus_line_point'::regclass AND d IS NULL), 0::bigint, 'all columns of the type have comments');
+
+CREATE TABLE point AS SELECT 10 * x + y AS id, x, y, x * 0.5 AS h FROM generate_series(0, 3) AS x, generate_series(0, 2) AS y WHERE NOT (x = 1 AND y = 1);
+SELECT abacus_triangulate('field', 'TABLE point');
+SELECT abacus_constrain('field', 'VALUES (1, 1, 0), (1, 2, 30)');
+SELECT is((SELECT string_agg(col_description('field_lines'::regclass, n), ';' ORDER BY n) FROM generate_series(1, 6) AS n),
+          (SELECT string_agg(col_description('abacus_line_point'::regclass, n), ';' ORDER BY n) FROM generate_series(1, 6) AS n), 'columns of the table have them, too');
+
+CREATE FUNCTION pg_temp.state() RETURNS text LANGUAGE sql AS $$
+    SELECT concat((SELECT string_agg(l::text, ';') FROM abacus_lines('field') AS l), (SELECT string_agg(v::text, ';') FROM abacus_vertices('field') AS v),
+                  (SELECT string_agg(e::text, ';') FROM abacus_edges('field', fixed => true) AS e), (SELECT count(*) FROM abacus_edges('field'))) $$;
+CREATE FUNCTION pg_temp.refused(query text, state text, message text, detail text DEFAULT NULL, more text DEFAULT '') RETURNS SETOF text LANGUAGE plpgsql AS $$
+DECLARE
+    before text := pg_temp.state();
+    found record;
+BEGIN
+    BEGIN
+        EXECUTE format('SELECT abacus_constrain(''field'', %L%s)', query, more);
+        RETURN NEXT fail('not refused: ' || message);
+        RETURN;
+    EXCEPTION WHEN OTHERS THEN
+        DECLARE
+            m text; d text; h text;
+        BEGIN
+            GET STACKED DIAGNOSTICS m = MESSAGE_TEXT, d = PG_EXCEPTION_DETAIL, h = PG_EXCEPTION_HINT;
+            RETURN NEXT is(SQLSTATE || ' ' || m || coalesce(' ' || nullif(d, ''), ''), state || ' ' || message || coalesce(' ' || detail, ''), message);
+            IF state <> '42701' THEN
+                RETURN NEXT isnt(h, '', 'with a hint');
+            END IF;
+        END;
+    END;
+    RETURN NEXT is(pg_temp.state(), before, 'nothing has changed');
+END $$;
+
+-- shapes of rows
+SELECT pg_temp.refused('SELECT 2, 1', '42804', 'the query of lines returns 2 columns', 'Rows of lines have three columns, or five and more.');
+SELECT pg_temp.refused('SELECT 2', '42804', 'the query of lines returns 1 column', 'Rows of lines have three columns, or five and more.');
+SELECT pg_temp.refused('SELECT 2, 1, 0, 0', '42804', 'the query of lines returns 4 columns', 'Rows of lines have three columns, or five and more.');
+SELECT pg_temp.refused('SELECT 2, 1.5, 0', '42804', 'column 2 of the query of lines has type numeric', 'It is the position, which is an integer.');
+SELECT pg_temp.refused('SELECT ''a''::text, 1, 0', '42804', 'column 1 of the query of lines has type text', 'It is the line, which is an integer.');
+SELECT pg_temp.refused('SELECT 2, 1, 0, true, 1', '42804', 'column 4 of the query of lines has type boolean', 'It is x, which is a number.');
+SELECT pg_temp.refused('SELECT 2, 1, 0, 1, 1, true AS h', '42804', 'column 6 of the query of lines has type boolean', 'It is the attribute "h", which is a number.');
+SELECT pg_temp.refused('VALUES (2, 1, ''0''::text, 1, 1), (2, 2, ''a'', 1, 2)', '42804', 'column 3 of the query of lines has type text');
+SELECT pg_temp.refused('SELECT 2, 1, 0, 1, 1, 7 AS g', '42703', 'mesh has no attribute "g"', 'Columns of the query of lines after x and y are attributes of the mesh, by name.');
+SELECT pg_temp.refused('SELECT 2, 1, 0, 1, 1, 7 AS h, 7 AS h', '42701', 'the query of lines returns attribute "h" twice');
+SELECT pg_temp.refused('DELETE FROM point RETURNING 1, 1, id', '22023', 'source query must be a single SELECT that changes and locks nothing');
+-- values
+SELECT pg_temp.refused('VALUES (2, 1, 0), (NULL, 2, 30)', '22004', 'line of row 2 is NULL');
+SELECT pg_temp.refused('VALUES (2, 1, 0), (2, NULL, 30)', '22004', 'a position in line 2 is NULL');
+SELECT pg_temp.refused('VALUES (2, 1, 0), (2, 5, NULL)', '22004', 'point id at position 5 of line 2 is NULL');
+SELECT pg_temp.refused('VALUES (2, 1, NULL, 0, 0), (2, 5, NULL, NULL, 1)', '22004', 'x at position 5 of line 2 is NULL');
+SELECT pg_temp.refused('VALUES (2, 1, NULL, 0, 0), (2, 5, NULL, 1, NULL)', '22004', 'y at position 5 of line 2 is NULL');
+SELECT pg_temp.refused('VALUES (2, 1, NULL, 0, 0::float8), (2, 5, NULL, 1, ''NaN'')', '22023', 'y at position 5 of line 2 is NaN');
+SELECT pg_temp.refused('VALUES (2, 1, NULL, 0::float8, 0), (2, 5, NULL, ''-inf'', 1)', '22023', 'x at position 5 of line 2 is infinite');
+SELECT pg_temp.refused('VALUES (2, 1, NULL, 0, 0), (2, 5, NULL, 10::numeric ^ 400, 1)', '22023', 'x at position 5 of line 2 is infinite');
+-- lines
+SELECT pg_temp.refused('VALUES (2, 1, 0), (2, 1, 30)', '23505', 'line 2 has position 1 twice');
+SELECT pg_temp.refused('VALUES (2, 1, 0), (3, 1, 0), (3, 2, 30)', '22023', 'line 2 has only one point');
+SELECT pg_temp.refused('VALUES (2, 1, 0), (2, 2, 30), (2, 7, 30)', '22023', 'line 2 has a segment of length zero', 'Its positions 2 and 7 are both at (3, 0).');
+SELECT pg_temp.refused('VALUES (2, 1, NULL, 7, 7), (2, 3, 77, 7.0, 7.0)', '22023', 'line 2 has a segment of length zero', 'Its positions 1 and 3 are both at (7, 7).');
+SELECT pg_temp.refused('VALUES (2, 1, NULL, 0.0::float8, 7), (2, 3, NULL, ''-0''::float8, 7)', '22023', 'line 2 has a segment of length zero', 'Its positions 1 and 3 are both at (0, 7).');
+SELECT pg_temp.refused('VALUES (1, 1, 0), (1, 2, 22)', '23505', 'the mesh already has a line 1');
+SELECT pg_temp.refused('VALUES (2, 1, 0), (2, 2, 22)', '22023', 'kind "harder" is not known', NULL, ', kind => ''harder''');
+SELECT pg_temp.refused('VALUES (2, 1, 0), (2, 2, 22)', '22023', 'existing "ignore" is not known', NULL, ', existing => ''ignore''');
+SELECT pg_temp.refused('VALUES (2, 1, 0), (2, 2, 22)', '22023', 'z is for lines given as geometries', NULL, ', z => ''h''');
+-- points
+SELECT pg_temp.refused('VALUES (2, 1, 0), (2, 2, 77)', '22023', 'mesh has no point 77', 'It is at position 2 of line 2.');
+SELECT pg_temp.refused('VALUES (2, 1, 0, 0, 0), (2, 2, 22, 2, 1)', '22023', 'point 22 is at another place in the mesh', 'It is (2, 1) at position 2 of line 2, and (2, 2) in the mesh.');
+SELECT pg_temp.refused('VALUES (2, 1, 77, 7, 7), (2, 2, 77, 7, 8)', '22023', 'point 77 is given with two places', 'It is (7, 7) at position 1 of line 2, and (7, 8) at position 2 of line 2.');
+SELECT pg_temp.refused('SELECT 2, i, 70 + i, 7, 7, i AS h FROM generate_series(1, 2) AS i', '22023', 'attribute "h" has two values at (7, 7)', 'It is 1 at position 1 of line 2, and 2 at position 2 of line 2.');
+SELECT pg_temp.refused('SELECT 2, i, NULL, 3, i, 7 AS h FROM generate_series(0, 1) AS i', '22023', 'attribute "h" has two values at (3, 0)', 'It is 1.5 at vertex 30, and 7 at position 0 of line 2.');
+SELECT lives_ok($$ SELECT abacus_constrain('field', 'SELECT 2, i, NULL, 3, i, CASE WHEN i = 0 THEN 1.5 END AS h FROM generate_series(0, 1) AS i') $$, 'the value that it has, or none');
+SELECT lives_ok($$ SELECT abacus_constrain('field', 'SELECT 2, i, NULL, 3, i, NULL AS h FROM generate_series(0, 1) AS i', existing => 'replace') $$, 'a bare NULL');
+SELECT throws_ok($$ SELECT abacus_constrain('field', NULL) $$, '22004', 'mesh and query must not be NULL');
+SELECT throws_ok($$ SELECT abacus_unconstrain('field', 'SELECT 1, 2') $$, '42804', 'the query of lines returns 2 columns');
+SELECT throws_ok($$ SELECT abacus_unconstrain('field', 'SELECT 1.5') $$, '42804', 'column 1 of the query of lines has type numeric');
+SELECT throws_ok($$ SELECT abacus_unconstrain('field', 'VALUES (1), (NULL)') $$, '22004', 'line of row 2 is NULL');
+
+-- an id at two places of the mesh
+SELECT abacus_insert('field', 'VALUES (500, 8, 8, 1), (500, 9, 8, 1)');
+SELECT pg_temp.refused('VALUES (3, 1, 0), (3, 2, 500)', '22023', 'several points of the mesh have the id 500', 'Their x is from 8 to 9, and their y from 8 to 8.');
+SELECT is(abacus_constrain('field', 'VALUES (3, 1, NULL, 8, 8), (3, 2, NULL, 9, 8)'), 1::bigint, 'they can be named by their places');
+SELECT results_eq($$ SELECT v0, v1, lines FROM abacus_edges('field', fixed => true) WHERE lines = '{3}' $$, $$ VALUES (500::bigint, 500::bigint, '{3}'::bigint[]) $$, 'both ends with one id');
+-- a repeated point stands for its vertex, and keeps its own id in the line
+SELECT abacus_insert('field', 'VALUES (600, 2, 2, 1)');
+SELECT is(abacus_constrain('field', 'VALUES (4, 1, 600), (4, 2, 12)'), 1::bigint, 'a repeated point');
+SELECT results_eq($$ SELECT point, x, y FROM abacus_lines('field') WHERE line = 4 $$, $$ VALUES (600::bigint, 2::float8, 2::float8), (12, 1, 2) $$, 'is kept as it was given');
+SELECT results_eq($$ SELECT v0, v1 FROM abacus_edges('field', fixed => true) WHERE lines = '{4}' $$, $$ VALUES (12::bigint, 22::bigint) $$, 'its vertex has the edge');
+-- new ids are above all others, in order of line and position
+SELECT is(abacus_constrain('field', 'SELECT 20 - i / 2, -i, CASE WHEN i = 5 THEN 9000 END, i + 20, i % 2 FROM generate_series(0, 5) AS i'), 3::bigint, 'new points');
+SELECT results_eq($$ SELECT line, position, point FROM abacus_lines('field') WHERE line >= 18 $$,
+    $$ VALUES (18::bigint, -5::bigint, 9000::bigint), (18, -4, 9001), (19, -3, 9002), (19, -2, 9003), (20, -1, 9004), (20, 0, 9005) $$, 'have ids in this order');
+
+-- meshes that cannot have lines
+SELECT abacus_triangulate('solid', 'SELECT i, i % 2, i / 2 % 2, i / 4 FROM generate_series(0, 7) AS i', dimension => 3);
+SELECT throws_ok($$ SELECT abacus_constrain('solid', 'VALUES (1, 1, 0), (1, 2, 1)') $$, '55000', 'mesh "solid" has dimension 3', 'in space');
+SELECT is_empty($$ SELECT * FROM abacus_lines('solid') $$, 'it has none');
+SELECT is_empty($$ SELECT * FROM abacus_edges('solid', fixed => true) $$, 'nor fixed edges');
+SELECT abacus_load('notch', 'VALUES (1, 0, 0), (2, 2, 0), (3, 0.5, 0.5), (4, 0, 2)', 'VALUES (1, 2, 3), (1, 3, 4)');
+SELECT throws_ok($$ SELECT abacus_constrain('notch', 'VALUES (1, 1, 2), (1, 2, 3)') $$, '55000', 'the mesh does not fill the convex hull of its vertices', 'one that cannot be changed');
+SELECT abacus_octree_create('soil', 2, '{0,0}', '{1,1}');
+SELECT throws_ok($$ SELECT abacus_constrain('soil', 'VALUES (1, 1, 2), (1, 2, 3)') $$, NULL, NULL, 'an octree');
+SELECT throws_ok($$ SELECT * FROM abacus_lines('soil') $$, NULL, NULL, 'which has none');
+SELECT throws_ok($$ SELECT * FROM abacus_lines('point') $$, '42809', '"point" is not a mesh', 'a table');
+CREATE TABLE cap_lines (i int);
+SELECT abacus_triangulate('cap', 'TABLE point');
+SELECT throws_ok($$ SELECT abacus_constrain('cap', 'VALUES (1, 1, 0), (1, 2, 30)') $$, '42P07', 'relation "cap_lines" already exists', 'the name is taken');
+
+-- rights
+CREATE ROLE surveyor;
+CREATE ROLE reader;
+GRANT ALL ON field, field_vertices, cap, cap_vertices TO surveyor;
+GRANT SELECT ON ALL TABLES IN SCHEMA public TO reader;
+DROP TABLE cap_lines;
+SET ROLE surveyor;
+SELECT throws_ok($$ SELECT abacus_constrain('cap', 'VALUES (1, 1, 0), (1, 2, 30)') $$, '42501', 'must be owner of mesh "cap" to give it its first lines');
+SELECT throws_ok($$ SELECT abacus_constrain('field', 'VALUES (50, 1, 0), (50, 2, 30)') $$, '42501', 'permission denied for table field_lines');
+SELECT throws_ok($$ SELECT * FROM abacus_lines('field') $$, '42501', 'permission denied for table field_lines');
+SELECT throws_ok($$ SELECT * FROM abacus_edges('field', fixed => true) $$, '42501', 'permission denied for table field_lines');
+RESET ROLE;
+GRANT ALL ON field_lines TO surveyor;
+SET ROLE surveyor;
+SELECT is(abacus_constrain('field', 'VALUES (50, 1, 0), (50, 2, 30)'), 1::bigint, 'with privileges on all three tables');
+SELECT is(abacus_unconstrain('field', 'VALUES (50)'), 1::bigint, 'the same');
+SET ROLE reader;
+SELECT isnt_empty($$ SELECT * FROM abacus_lines('field') $$, 'a reader sees them');
+SELECT throws_ok($$ SELECT abacus_unconstrain('field', 'VALUES (1)') $$, '42501', NULL, 'but cannot change them');
+RESET ROLE;
+-- another owner's mesh, by a superuser: the tables have one owner
+ALTER TABLE cap OWNER TO surveyor;
+ALTER TABLE cap_vertices OWNER TO surveyor;
+GRANT CREATE ON SCHEMA public TO surveyor;
+SELECT is(abacus_constrain('cap', 'VALUES (1, 1, 0), (1, 2, 30)'), 1::bigint, 'a superuser');
+SELECT table_owner_is('cap_lines', 'surveyor'::name);
+ALTER TABLE cap_lines ENABLE ROW LEVEL SECURITY;
+ALTER TABLE cap_lines FORCE ROW LEVEL SECURITY;
+SET ROLE surveyor;
+SELECT throws_ok($$ SELECT * FROM abacus_lines('cap') $$, '0A000', NULL, 'row-level security');
+RESET ROLE;
+
+-- the table is lost
+DROP TABLE cap_lines;
+SELECT throws_ok($$ SELECT * FROM abacus_lines('cap') $$, '42P01', 'mesh "cap" has lines, but no table of lines');
+SELECT throws_ok($$ SELECT * FROM abacus_edges('cap', fixed => true) $$, '42P01', 'mesh "cap" has lines, but no table of lines');
+SELECT lives_ok($$ DROP TABLE cap $$, 'it can be dropped');
+
+-- a temporary mesh; operators of a hostile search path are not used
+SELECT abacus_triangulate('pg_temp.short', 'TABLE point');
+SELECT is(abacus_constrain('short', 'VALUES (1, 1, 0), (1, 2, 30)'), 1::bigint, 'a temporary mesh');
+SELECT is((SELECT relpersistence::text FROM pg_class WHERE oid = 'short_lines'::regclass), 't', 'whose lines are temporary');
+CREATE SCHEMA hostile;
+CREATE FUNCTION hostile.never(bigint, bigint) RETURNS boolean LANGUAGE plpgsql AS $$ BEGIN RAISE EXCEPTION 'called'; END $$;
+CREATE FUNCTION hostile.never(float8, float8) RETURNS boolean LANGUAGE plpgsql AS $$ BEGIN RAISE EXCEPTION 'called'; END $$;
+CREATE OPERATOR hostile.= (LEFTARG = bigint, RIGHTARG = bigint, FUNCTION = hostile.never);
+CREATE OPERATOR hostile.= (LEFTARG = float8, RIGHTARG = float8, FUNCTION = hostile.never);
+CREATE OPERATOR hostile.< (LEFTARG = bigint, RIGHTARG = bigint, FUNCTION = hostile.never);
+SET LOCAL search_path = hostile, public, pg_catalog;
+SELECT is(public.abacus_constrain('field', 'VALUES (1, 1, NULL, 0, 0), (1, 2, 30, 3, 0)', existing => 'replace') > 0, true, 'a hostile search path');
+SELECT is(public.abacus_unconstrain('field', 'VALUES (1)') > 0, true, 'the same');
+SELECT is(public.abacus_delete('field', 'VALUES (0, 0, 0)') > 0, true, 'the same in questions of the core');
+RESET search_path;
+
+SELECT * FROM finish();
+ROLLBACK;
