@@ -37,6 +37,7 @@
 #include "abacus/arrays.h"
 #include "abacus/build.h"
 #include "abacus/check.h"
+#include "abacus/constrain.h"
 #include "abacus/contours.h"
 #include "abacus/crossings.h"
 #include "abacus/draw.h"

@@ -36,14 +36,13 @@ static_assert(sizeof(abacus_counters) == counter_count * sizeof(std::uint64_t));
 /// Older headers do not have the last counters.
 constexpr std::size_t least_counters = offsetof(abacus_counters, passes) / sizeof(std::uint64_t);
 
-/// A name of 63 bytes at most, and zeros; then the type of the column. That of doubles is 0, so
-/// headers from before there were types say that all columns have doubles.
+/// A name of 63 bytes at most, and zeros; then the type of the column, which was 0 before there were
+/// types: doubles.
 constexpr std::size_t type_byte = ABACUS_NAME_BYTES - 1;
 
 class Writer {
 public:
     explicit Writer(unsigned char *bytes) : begin_(bytes), at_(bytes) {}
-
     void operator()(std::uint64_t value) {
         for (int i = 0; i < 8; ++i) *at_++ = static_cast<unsigned char>(value >> (8 * i));
     }
@@ -67,7 +66,6 @@ private:
 class HeaderReader {
 public:
     HeaderReader(const unsigned char *bytes, std::size_t size) : at_(bytes), end_(bytes + size) {}
-
     void operator()(std::uint64_t &value) {
         const unsigned char *from = take(8);
         value = 0;

@@ -15,7 +15,7 @@ void Freeing::free(const Point<2> &a, const Point<2> &b) {
 
 Point<2> Freeing::free_edge(const Point<2> &from, const Point<2> &b) {
     const Link corner = vertex_at(mesh_, from);
-    if (corner == unset) throw_corrupted("A line has a place that is no vertex of the mesh.");
+    if (corner == unset) throw_corrupted("A line names a place without a vertex.");
     const Way way = straight_on(cache_, corner, b);
     if (way.triangle == no_handle) return b;
     if (!way.is_edge) { // the edges of another line, which have been freed before

@@ -7,7 +7,7 @@
 namespace abacus {
 
 /// Calls visit(a, b, is_fixed) for the vertices at both ends of each edge, in the order from p to
-/// q. False if an end is no vertex, or an edge is missing, where this stops.
+/// q. False if an end is not a vertex, or an edge is missing, where this stops.
 template <class Visit>
 bool edges_along(Reader<2> &reader, const Point<2> &p, const Point<2> &q, Visit visit) {
     Cache<2> &cache = reader.cache();

@@ -16,6 +16,7 @@
 #include "pg/base/settings.h"
 #include "pg/base/sql_function.h"
 #include "pg/mesh/numbering.h"
+#include "pg/sql/constrain/fixed_edges.h"
 #include "pg/sql/rows/result.h"
 #include "pg/store/page_search.h"
 
@@ -147,6 +148,19 @@ notice_flat(const Checking *checking, Relation table, const abacus_form *form)
 					   form->dimension == 2 ? "areas" : "volumes")));
 }
 
+/* Compares the fixed edges of a sound mesh with its lines, which are in a table beside it. */
+static void
+check_lines(Checking *checking, Oid mesh, const abacus_facts *facts)
+{
+	char	   *fault;
+
+	if (facts->standing != ABACUS_CONSTRAINED || facts->census.lines_wait > 0)
+		return;
+	fault = fixed_edges_fault(mesh, abacus_check_fixed(checking->host->handle));
+	if (fault != NULL)
+		note_fault(checking, "lines", header_key, fault);
+}
+
 static Checking *
 begin_check(Oid mesh, int32 limit, MemoryContext memory)
 {
@@ -167,6 +181,8 @@ begin_check(Oid mesh, int32 limit, MemoryContext memory)
 	}
 	if (!checking->has_fault)
 		look_for_first_fault(checking);
+	if (!checking->has_fault && limit > 0)
+		check_lines(checking, mesh, &header.facts);
 	if (checking->has_fault)
 		host_doubt_pages(checking->host);
 	else if (checking->host->handle != NULL)

@@ -9,6 +9,7 @@
 
 #include <math.h>
 
+#include "access/table.h"
 #include "catalog/pg_type.h"
 #include "executor/spi.h"
 #include "utils/builtins.h"
@@ -36,6 +37,10 @@ enum
 	EDGE_IS_HARD,
 	EDGE_COLUMNS
 };
+static const NamedColumn edge_columns[EDGE_COLUMNS] = {
+	{"v0", INT8OID}, {"v1", INT8OID}, {"x0", FLOAT8OID}, {"y0", FLOAT8OID}, {"x1", FLOAT8OID},
+	{"y1", FLOAT8OID}, {"length", FLOAT8OID}, {"line", INT8OID}, {"is_hard", BOOLOID}
+};
 
 /* The edges of one segment after the other. */
 typedef struct EdgeRows
@@ -46,7 +51,18 @@ typedef struct EdgeRows
 	NamedRows  *rows;
 	int64		line;
 	bool		is_hard;
+	bool		checks;			/* looks for edges that are missing or free: no error then */
+	bool		is_broken;		/* there is one, ... */
+	int64		broken;			/* ... of this line */
 } EdgeRows;
+
+static void
+note_broken(EdgeRows *edges)
+{
+	if (edges->checks && !edges->is_broken)
+		edges->broken = edges->line;
+	edges->is_broken = true;
+}
 
 /* Called by the core. */
 static abacus_host_status
@@ -58,7 +74,10 @@ put_edge(void *context, const int64_t ids[2], const double ends[2][2], int is_fi
 	bool		isnull[EDGE_COLUMNS] = {false};
 
 	if (!is_fixed)
+	{
+		note_broken(edges);
 		return ABACUS_HOST_OK;
+	}
 	values[EDGE_V0] = Int64GetDatum(ids[in_order ? 0 : 1]);
 	values[EDGE_V1] = Int64GetDatum(ids[in_order ? 1 : 0]);
 	for (int i = 0; i < 4; i++)
@@ -84,7 +103,9 @@ add_segment(EdgeRows *edges, const double *a, const double *b)
 			return;
 	host_run(cached->host, abacus_edges_along, cached->mesh, a, b, put_edge, edges, &is_whole);
 	host_release(cached->host);
-	if (is_whole || cached->header.facts.census.lines_wait > 0)
+	if (!is_whole)
+		note_broken(edges);
+	if (is_whole || edges->checks || cached->header.facts.census.lines_wait > 0)
 		return;
 	ereport(ERROR,
 			(errcode(ERRCODE_DATA_CORRUPTED),
@@ -177,16 +198,56 @@ read_window(Reader *reader, const abacus_window *window, double max_edge)
 }
 
 /*
+ * Looks for a fault of the lines of a sound mesh, which has so many fixed edges: a line without one
+ * of its edges, fixed edges that belong to no line, lines that are not counted. Returns what is
+ * wrong, or NULL.
+ */
+char *
+fixed_edges_fault(Oid mesh, uint64 fixed)
+{
+	EdgeRows	edges = {.checks = true};
+	const abacus_census *census;
+	Relation	heap = table_open(mesh, NoLock);
+	char	   *table = lines_table_name(lines_table_require(heap, MESH_READ));
+	char	   *fault = NULL;
+	MemoryContext memory = CurrentMemoryContext;
+	abacus_window whole = {.kind = ABACUS_NO_WINDOW};
+	Datum		counts[2];
+	bool		isnull[2];
+	int			level;
+
+	table_close(heap, NoLock);
+	SPI_connect();
+	edges.cached = mesh_cache_get(mesh);
+	census = &edges.cached->header.facts.census;
+	edges.rows = named_rows_create(EDGES_ON_LINES, edge_columns, lengthof(edge_columns));
+	bound(&edges, &whole);
+	level = plain_names_begin(false);
+	add_lines(&edges, table);
+	named_rows_register(edges.rows);
+	query_first(psprintf("SELECT (SELECT count(*) FROM (SELECT DISTINCT v0, v1, x0, y0, x1, y1 FROM "
+						 EDGES_ON_LINES ") AS e), (SELECT count(DISTINCT line) FROM %s)", table),
+				counts, isnull, 2);
+	plain_names_end(level);
+	named_rows_free(edges.rows);
+	if (edges.is_broken)
+		fault = MemoryContextStrdup(memory, psprintf("Line " INT64_FORMAT " lacks a fixed edge.",
+													 edges.broken));
+	else if ((uint64) DatumGetInt64(counts[0]) != fixed)
+		fault = MemoryContextStrdup(memory, "Edges are fixed that belong to no line.");
+	else if ((uint64) DatumGetInt64(counts[1]) != census->lines)
+		fault = MemoryContextStrdup(memory, "The header counts more or fewer lines than there are.");
+	SPI_finish();
+	return fault;
+}
+
+/*
  * Puts the fixed edges of a mesh, or of a window, into the result of a function: v0, v1, length,
  * lines, kind.
  */
 void
 fixed_edges_put(Reader *reader, const abacus_window *window, double max_edge, ReturnSetInfo *set)
 {
-	static const NamedColumn columns[] = {
-		{"v0", INT8OID}, {"v1", INT8OID}, {"x0", FLOAT8OID}, {"y0", FLOAT8OID}, {"x1", FLOAT8OID},
-		{"y1", FLOAT8OID}, {"length", FLOAT8OID}, {"line", INT8OID}, {"is_hard", BOOLOID}
-	};
 	const MeshPages *pages = mesh_pages(reader->host);
 	bool		is_part = window->kind != ABACUS_NO_WINDOW || max_edge > 0;
 	EdgeRows	edges = {0};
@@ -199,7 +260,7 @@ fixed_edges_put(Reader *reader, const abacus_window *window, double max_edge, Re
 	table = lines_table_name(lines_table_require(pages->simplices.heap, MESH_READ));
 	SPI_connect();
 	edges.cached = mesh_cache_get(pages->mesh);
-	edges.rows = named_rows_create(EDGES_ON_LINES, columns, lengthof(columns));
+	edges.rows = named_rows_create(EDGES_ON_LINES, edge_columns, lengthof(edge_columns));
 	bound(&edges, window);
 	level = plain_names_begin(false);
 	add_lines(&edges, table);

@@ -10,5 +10,6 @@
 
 extern void fixed_edges_put(Reader *reader, const abacus_window *window, double max_edge,
 							ReturnSetInfo *set);
+extern char *fixed_edges_fault(Oid mesh, uint64 fixed);
 
 #endif
