@@ -90,8 +90,11 @@ void expect_right(Segments segments, const Crossings &found) {
     for (std::size_t i = 0; i < segments.size(); ++i)
         for (std::size_t k = i + 1; k < segments.size(); ++k) {
             const auto &s = segments[i], &t = segments[k];
-            if (std::max(s.a[0], s.b[0]) < std::min(t.a[0], t.b[0]) ||
-                std::max(t.a[0], t.b[0]) < std::min(s.a[0], s.b[0]))
+            const auto lies_before = [](const auto &one, const auto &other, int axis) {
+                return std::max(one.a[axis], one.b[axis]) < std::min(other.a[axis], other.b[axis]);
+            };
+            if (lies_before(s, t, 0) || lies_before(t, s, 0) || lies_before(s, t, 1) ||
+                lies_before(t, s, 1))
                 continue;
             const Exact a(s.a), b(s.b), c(t.a), d(t.b);
             if (side(a, b, c) * side(a, b, d) >= 0 || side(c, d, a) * side(c, d, b) >= 0) continue;
@@ -227,8 +230,8 @@ TEST_F(CrossingSegments, LargeAndSmallNumbers) {
 
 // Many more are held than there is room for.
 TEST_F(CrossingSegments, InLittleMemory) {
-    for (int i = 0; i < 1200; ++i) {
-        const double y = number(), length = number() < 0.3 ? 1 : 0.01, x = number();
+    for (int i = 0; i < 2500; ++i) {
+        const double y = number(), length = number() < 0.7 ? 1 : 0.01, x = number();
         add(x, y, x + length, y + 0.001 * (number() - 0.5));
     }
     const Crossings found = found_by(segments);
