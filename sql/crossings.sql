@@ -15,6 +15,8 @@ SELECT * FROM abacus_crossings('land', 'SELECT line::bigint, position::smallint,
 -- (5, 2) is a vertex of that mesh, but not of this one.
 SELECT abacus_triangulate('small', $$ VALUES (1, 0, 0), (2, 1, 0), (3, 0, 1) $$);
 SELECT line_a, line_b, x, y FROM abacus_crossings('small', 'SELECT line, position, x, y FROM line');
+-- ... and no crossing where a third line has a corner.
+SELECT line_a, line_b, x, y FROM abacus_crossings('small', 'SELECT line, position, x, y FROM line UNION ALL VALUES (9, 1, 5, 2), (9, 2, 5, 9)');
 -- An inexact place is never a vertex.
 SELECT * FROM abacus_crossings('small', $$ VALUES (1, 1, 0, 0), (1, 2, 1, 1.1), (2, 1, 0, 0.1), (2, 2, 1, 0.3) $$);
 -- The memory does not change what is found, nor does the order.

@@ -1,8 +1,8 @@
 /*
  * crossings.h: where segments of lines in the plane cross.
  *
- * Two segments cross if they have exactly one point in common, which is an end of neither. Segments
- * that touch in an end, or overlap along a stretch, do not cross.
+ * Two segments cross if they have exactly one point in common, which is an end of none of the
+ * segments. Segments that touch in an end, or overlap along a stretch, do not cross.
  */
 #ifndef ABACUS_ABACUS_CROSSINGS_H
 #define ABACUS_ABACUS_CROSSINGS_H

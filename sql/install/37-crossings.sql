@@ -11,6 +11,6 @@ CREATE FUNCTION abacus_crossings(
     OUT y double precision)
 RETURNS SETOF record
 AS 'MODULE_PATHNAME', 'abacus_sql_crossings'
-LANGUAGE C STABLE STRICT PARALLEL SAFE COST 100000 ROWS 1000;
+LANGUAGE C VOLATILE STRICT PARALLEL UNSAFE COST 1000 ROWS 1000;
 COMMENT ON FUNCTION abacus_crossings(regclass, text) IS
-    'where segments of lines cross: two segments have one point in common, which is an end of neither and not a vertex of the mesh. A segment is named by its line and the position where it begins. Shapes: the query returns line, position, x, y, or line, position, point, x, y, in any order. Units: x and y in those of the coordinates. Errors: 42804 other columns, 22004 a NULL, 22023 a position twice in a line, coordinates that are not finite, or a mesh in space, 53400 no room for temporary files';
+    'where segments of lines cross: two segments have one point in common, which is neither a vertex of the mesh nor a corner of a line. A segment is named by its line and the position where it begins. Shapes: the query returns line, position, x, y, or line, position, point, x, y, in any order. Units: x and y in those of the coordinates. Errors: 42804 other columns, 22004 a NULL, 22023 a position twice in a line, coordinates that are not finite, or a mesh in space, 53400 no room for temporary files';

@@ -6,21 +6,52 @@ namespace abacus {
 
 Crossings::Crossings(const Host &host, std::size_t memory)
     : host_(host), share_(memory / 4), sweep_(host, memory / 2),
-      found_(host, 2 * segment_words, 2 * segment_words, share_) {}
+      ends_(host, place_words, place_words, memory / 8),
+      exact_(host, place_words + pair_words, place_words, memory / 8),
+      found_(host, crossing_words, pair_words, share_) {}
 
 void Crossings::sweep() {
     is_swept_ = true;
     if (corners_) {
-        corners_->each_segment([this](const LineSegment &segment) { add(segment); });
+        corners_->each_segment([this](const LineSegment &segment) { sweep_.add(segment); });
         corners_->close();
     }
     sweep_.each([this](const LineSegment &a, const LineSegment &b) {
-        std::uint64_t *const record = found_.add();
-        write_segment(std::min(a, b), record);
-        write_segment(std::max(a, b), record + segment_words);
+        find(std::min(a, b), std::max(a, b));
     });
     sweep_.close();
+    leave_out_ends();
     found_.finish();
+}
+
+void Crossings::find(const LineSegment &a, const LineSegment &b) {
+    const CrossingPlace at = crossing_place(a.a, a.b, b.a, b.b);
+    std::uint64_t *const record = at.is_exact ? exact_.add() : found_.add();
+    std::uint64_t *const pair = record + (at.is_exact ? place_words : 0);
+    std::uint64_t *const place = at.is_exact ? record : record + pair_words;
+    write_segment(a, pair);
+    write_segment(b, pair + segment_words);
+    write_place(at.place, place);
+    if (!at.is_exact) record[pair_words + place_words] = 0;
+}
+
+void Crossings::leave_out_ends() {
+    ends_.finish();
+    exact_.finish();
+    const std::uint64_t *end = ends_.next();
+    while (const std::uint64_t *const crossing = exact_.next()) {
+        const std::uint64_t *const place_end = crossing + place_words;
+        while (end != nullptr &&
+               std::lexicographical_compare(end, end + place_words, crossing, place_end))
+            end = ends_.next();
+        if (end != nullptr && std::equal(crossing, place_end, end)) continue;
+        std::uint64_t *const record = found_.add();
+        std::copy_n(place_end, pair_words, record);
+        std::copy_n(crossing, place_words, record + pair_words);
+        record[pair_words + place_words] = 1;
+    }
+    ends_.close();
+    exact_.close();
 }
 
 bool Crossings::next(Crossing &crossing) {
@@ -29,14 +60,17 @@ bool Crossings::next(Crossing &crossing) {
     if (record == nullptr) return false;
     crossing.first = read_segment(record);
     crossing.second = read_segment(record + segment_words);
-    crossing.at =
-        crossing_place(crossing.first.a, crossing.first.b, crossing.second.a, crossing.second.b);
+    const std::uint64_t *const place = record + pair_words;
+    for (int i = 0; i < 2; ++i) crossing.at.place[i] = from_ordered(place[i]);
+    crossing.at.is_exact = place[place_words] != 0;
     return true;
 }
 
 void Crossings::close() {
     if (corners_) corners_->close();
     sweep_.close();
+    ends_.close();
+    exact_.close();
     found_.close();
 }
 

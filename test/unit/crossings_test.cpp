@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <set>
 #include <tuple>
 
 namespace abacus::test {
@@ -79,21 +80,31 @@ void expect_right(Segments segments, const Crossings &found) {
     std::sort(segments.begin(), segments.end(), [](const auto &a, const auto &b) {
         return std::tie(a.line, a.position) < std::tie(b.line, b.position);
     });
+    std::set<std::pair<Rational, Rational>> ends;
+    for (const auto &s : segments) {
+        ends.emplace(s.a[0], s.a[1]);
+        ends.emplace(s.b[0], s.b[1]);
+    }
+    const auto is_end = [&](const Exact &p) { return ends.count({p.x, p.y}) > 0; };
     std::size_t at = 0;
     for (std::size_t i = 0; i < segments.size(); ++i)
         for (std::size_t k = i + 1; k < segments.size(); ++k) {
             const auto &s = segments[i], &t = segments[k];
-            if (std::max(s.a[0], s.b[0]) < std::min(t.a[0], t.b[0]) ||
-                std::max(t.a[0], t.b[0]) < std::min(s.a[0], s.b[0]))
+            const auto lies_before = [](const auto &one, const auto &other, int axis) {
+                return std::max(one.a[axis], one.b[axis]) < std::min(other.a[axis], other.b[axis]);
+            };
+            if (lies_before(s, t, 0) || lies_before(t, s, 0) || lies_before(s, t, 1) ||
+                lies_before(t, s, 1))
                 continue;
             const Exact a(s.a), b(s.b), c(t.a), d(t.b);
             if (side(a, b, c) * side(a, b, d) >= 0 || side(c, d, a) * side(c, d, b) >= 0) continue;
-            ASSERT_LT(at, found.size());
-            const Found &f = found[at++];
-            ASSERT_EQ(f.pair, Pair(s.line, s.position, t.line, t.position));
             const Rational from_c = area(a, b, c), from_d = area(a, b, d);
             const Rational along = from_c / (from_c - from_d);
             const Exact place(c.x + along * (d.x - c.x), c.y + along * (d.y - c.y));
+            if (is_end(place)) continue;
+            ASSERT_LT(at, found.size());
+            const Found &f = found[at++];
+            ASSERT_EQ(f.pair, Pair(s.line, s.position, t.line, t.position));
             EXPECT_TRUE(is_nearest(f.x, place.x) && is_nearest(f.y, place.y));
             EXPECT_EQ(f.is_exact, Rational(f.x) == place.x && Rational(f.y) == place.y);
         }
@@ -142,13 +153,15 @@ TEST_F(CrossingSegments, ContactsAreNone) {
     add(3, 0, 3, 0);  // of length 0
     add(-2, 0, 0, 0); // one after the other
     EXPECT_TRUE(found_by(segments).empty());
-    add(3, -1, 3, 1);
+    add(3.5, -1, 3.5, 1);
+    EXPECT_EQ(found_by(segments).size(), 4u);
+    add(3, -1, 3, 1); // at the end of others
     EXPECT_EQ(found_by(segments).size(), 4u);
     expect_right_whatever_the_order();
 }
 
 TEST_F(CrossingSegments, AtRandom) {
-    for (int i = 0; i < 300; ++i) add(number(), number(), number(), number());
+    for (int i = 0; i < 150; ++i) add(number(), number(), number(), number());
     expect_right_whatever_the_order();
 }
 
@@ -161,14 +174,14 @@ TEST_F(CrossingSegments, ShortOnes) {
 }
 
 TEST_F(CrossingSegments, OnAGrid) {
-    for (int i = 0; i < 500; ++i)
+    for (int i = 0; i < 250; ++i)
         add(static_cast<double>(whole(9)), static_cast<double>(whole(9)),
             static_cast<double>(whole(9)), static_cast<double>(whole(9)));
     expect_right_whatever_the_order();
 }
 
 TEST_F(CrossingSegments, OfAStar) {
-    for (int i = 0; i < 400; ++i) {
+    for (int i = 0; i < 200; ++i) {
         const double x = number() - 0.5, y = number() - 0.5;
         if (i % 2 == 0)
             add(0, 0, x, y);
@@ -179,13 +192,13 @@ TEST_F(CrossingSegments, OfAStar) {
 }
 
 TEST_F(CrossingSegments, LongDiagonals) {
-    for (int i = 0; i < 800; ++i) add(number() * 0.01, i, 100 + number() * 0.01, i + 100);
-    for (int i = 0; i < 5; ++i) add(10 * i, 900, 10 * i + number(), 0);
+    for (int i = 0; i < 400; ++i) add(number() * 0.01, i, 100 + number() * 0.01, i + 100);
+    for (int i = 0; i < 5; ++i) add(10 * i, 500, 10 * i + number(), 0);
     expect_right_whatever_the_order();
 }
 
 TEST_F(CrossingSegments, Vertical) {
-    for (int i = 0; i < 1000; ++i) {
+    for (int i = 0; i < 500; ++i) {
         const double y = number();
         add(0.5, y, 0.5, y + 0.01);
     }
@@ -217,8 +230,8 @@ TEST_F(CrossingSegments, LargeAndSmallNumbers) {
 
 // Many more are held than there is room for.
 TEST_F(CrossingSegments, InLittleMemory) {
-    for (int i = 0; i < 2000; ++i) {
-        const double y = number(), length = number() < 0.3 ? 1 : 0.01, x = number();
+    for (int i = 0; i < 2500; ++i) {
+        const double y = number(), length = number() < 0.7 ? 1 : 0.01, x = number();
         add(x, y, x + length, y + 0.001 * (number() - 0.5));
     }
     const Crossings found = found_by(segments);
