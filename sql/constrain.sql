@@ -33,7 +33,7 @@ SELECT count(*) FROM abacus_edges('field', fixed => NULL);
 -- Places: points that are there, new ones with an id and without, and attributes by name.
 SELECT abacus_constrain('field', $$
     VALUES (20, 1, NULL, 4.0, 2::float8), (20, 2, 52, 5, 2), (20, 3, NULL, 5, 0), (20, 4, NULL, 3, 0), (20, 5, NULL, 4, 2),
-           (9, 1, 31, 3, 1), (9, 2, NULL, 4, 0) $$);
+           (9, 1, 31, 3, 1), (9, 2, NULL, 3, 4) $$);
 SELECT * FROM abacus_lines('field') WHERE line IN (9, 20);
 SELECT abacus_constrain('field', 'SELECT 30, i, NULL, i, 5, i * 2 AS height FROM generate_series(0, 2) AS i');
 SELECT id, x, y, attributes[1] AS height FROM abacus_vertices('field') WHERE id > 32 ORDER BY id;
@@ -43,6 +43,18 @@ SELECT * FROM abacus_check('field');
 SELECT abacus_constrain('field', 'VALUES (30, 1, 0), (30, 2, 20)');
 SELECT abacus_constrain('field', 'VALUES (30, 1, 0), (30, 2, 20), (31, 1, 0), (31, 2, 20)', existing => 'replace', kind => 'soft');
 SELECT * FROM abacus_lines('field') WHERE line >= 30;
+
+-- Lines do not cross; what is in the way is shown, and nothing has changed.
+SELECT abacus_constrain('field', 'VALUES (40, 1, 0), (40, 2, 22), (41, 1, 2), (41, 2, 21)');
+SELECT count(*) FROM abacus_lines('field') WHERE line >= 40;
+-- A point on an edge splits it, and both halves are fixed; without the point they are one again.
+SELECT abacus_insert('field', 'VALUES (1000, 1, 0.5, 1)');
+SELECT v0, v1, lines, kind FROM abacus_edges('field', fixed => true) WHERE lines = '{7,8}';
+SELECT abacus_delete('field', 'VALUES (1000, 1, 0.5)');
+SELECT v0, v1, lines, kind FROM abacus_edges('field', fixed => true) WHERE lines = '{7,8}';
+-- A vertex that a line names stays.
+SELECT abacus_delete('field', 'VALUES (30, 3, 0)');
+SELECT * FROM abacus_check('field');
 
 -- Lines go, points stay.
 SELECT abacus_unconstrain('field', 'VALUES (20), (9), (9), (100), (101)');
