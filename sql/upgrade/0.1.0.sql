@@ -30,16 +30,6 @@ COMMENT ON COLUMN abacus_vertex_page.first IS
 COMMENT ON COLUMN abacus_vertex_page.part IS 'continues the code: serial number of a point; 0 where points wait';
 COMMENT ON COLUMN abacus_vertex_page.page IS 'the page';
 
-CREATE TYPE abacus_line_point AS (
-    line bigint, position bigint, point bigint, x double precision, y double precision, kind text);
-COMMENT ON TYPE abacus_line_point IS 'row of the table of lines of a mesh: a point of a line';
-COMMENT ON COLUMN abacus_line_point.line IS 'id of the line';
-COMMENT ON COLUMN abacus_line_point.position IS 'place in the order of the line''s points';
-COMMENT ON COLUMN abacus_line_point.point IS 'id of the point, as it was given or chosen';
-COMMENT ON COLUMN abacus_line_point.x IS 'where the point is; what counts for the mesh';
-COMMENT ON COLUMN abacus_line_point.y IS 'the same';
-COMMENT ON COLUMN abacus_line_point.kind IS 'hard or soft, the same for all points of a line';
-
 -- The earthquake points are in the extension abacus_lab now. Views and the like that use them keep
 -- the function, and abacus_lab takes it up (sql/install_lab). A WARNING: less is not shown here.
 ALTER EXTENSION abacus DROP FUNCTION abacus_quake(double precision, double precision);
