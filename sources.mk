@@ -276,6 +276,7 @@ PG_SOURCES += src/pg/input/row_packer.c
 PG_SOURCES += src/pg/input/source.c
 PG_SOURCES += src/pg/mesh/change.c
 PG_SOURCES += src/pg/mesh/header.c
+PG_SOURCES += src/pg/mesh/line_crossings.c
 PG_SOURCES += src/pg/mesh/lines_table.c
 PG_SOURCES += src/pg/mesh/mesh.c
 PG_SOURCES += src/pg/mesh/mesh_access.c

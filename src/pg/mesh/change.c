@@ -284,10 +284,8 @@ change_lines(Change *change, int64 more)
 void
 change_fix(Change *change)
 {
-	Host	   *host = change->writer.host;
-
 	change_open_build(change);
-	host_run(host, abacus_build_fix, change->build, change->fixed, change->writer.header);
+	mesh_lines_fix(&change->writer, change->build, change->fixed);
 	abacus_segments_close(change->fixed);
 	change->fixed = NULL;
 }

@@ -13,23 +13,13 @@
 #include "utils/builtins.h"
 #include "utils/lsyscache.h"
 
-#include "abacus/crossings.h"
 #include "pg/base/settings.h"
 #include "pg/base/sql_function.h"
 #include "pg/input/source.h"
+#include "pg/mesh/line_crossings.h"
 #include "pg/mesh/mesh_cache.h"
 
 SQL_FUNCTION(abacus_sql_crossings);
-
-/* Columns of the query. Those of abacus_constrain() have the point's id before x. */
-enum
-{
-	CORNER_LINE,
-	CORNER_POSITION,
-	CORNER_X,
-	CORNER_Y,
-	CORNER_COLUMNS
-};
 
 /* Columns of the result */
 enum
@@ -124,7 +114,7 @@ to_double(Oid type, Datum value)
 	}
 }
 
-/* The record of a row for abacus_crossings_add_corners(). */
+/* The record of a row for line_crossings_add(). */
 static void
 pack_corner(Corners *corners, HeapTuple row, uint64 *record)
 {
@@ -160,7 +150,7 @@ pack_corner(Corners *corners, HeapTuple row, uint64 *record)
 
 /* Gives the rows of a prepared query to the core. */
 static void
-read_corners(Source *source, Host *host, abacus_crossings *crossings)
+read_corners(Source *source, LineCrossings *crossings)
 {
 	Portal		portal = SPI_cursor_open(NULL, source->plan, NULL, NULL, true);
 	uint64	   *records = palloc(ROWS_A_BATCH * CORNER_COLUMNS * sizeof(uint64));
@@ -178,7 +168,7 @@ read_corners(Source *source, Host *host, abacus_crossings *crossings)
 		for (uint64 i = 0; i < count; i++)
 			pack_corner(&corners, SPI_tuptable->vals[i], records + i * CORNER_COLUMNS);
 		SPI_freetuptable(SPI_tuptable);
-		host_run(host, abacus_crossings_add_corners, crossings, records, count);
+		line_crossings_add(crossings, records, count);
 	}
 	SPI_freetuptable(SPI_tuptable);
 	SPI_cursor_close(portal);
@@ -196,8 +186,9 @@ get_mesh(Oid mesh)
 }
 
 static bool
-is_vertex(CachedMesh *cached, const double *place)
+is_vertex(void *context, const double *place)
 {
+	CachedMesh *cached = context;
 	int64_t		id;
 
 	return host_run(cached->host, abacus_mesh_vertex_at, cached->mesh, place, &id) == ABACUS_OK;
@@ -226,25 +217,21 @@ Datum
 abacus_sql_crossings(PG_FUNCTION_ARGS)
 {
 	ReturnSetInfo *set = (ReturnSetInfo *) fcinfo->resultinfo;
-	Host	   *host;
 	CachedMesh *cached;
 	Source		source;
-	abacus_crossings *crossings = NULL;
+	LineCrossings crossings;
 	abacus_crossing crossing;
 
 	InitMaterializedSRF(fcinfo, 0);
 	source_prepare(&source, text_to_cstring(PG_GETARG_TEXT_PP(1)));
 	host_release(get_mesh(PG_GETARG_OID(0))->host);
-	host = host_create(CurrentMemoryContext);
-	host_run(host, abacus_crossings_open, &host->table, setting_query_sort_bytes(), &crossings);
-	host_own(host, crossings, (void (*) (void *)) abacus_crossings_close);
-	read_corners(&source, host, crossings);
+	line_crossings_open(&crossings, setting_query_sort_bytes());
+	read_corners(&source, &crossings);
 	cached = get_mesh(PG_GETARG_OID(0)); /* anew, since the query may have read meshes */
-	while (host_run(host, abacus_crossings_next, crossings, &crossing) == ABACUS_OK)
-		if (!crossing.is_exact || !is_vertex(cached, crossing.place))
-			put_crossing(set, &crossing);
+	while (line_crossings_next(&crossings, is_vertex, cached, &crossing))
+		put_crossing(set, &crossing);
 	host_release(cached->host);
-	host_destroy(host);
+	line_crossings_close(&crossings);
 	source_finish(&source);
 	PG_RETURN_NULL();
 }
