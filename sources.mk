@@ -332,6 +332,7 @@ PG_SOURCES += src/pg/sql/constrain/fn_lines.c
 PG_SOURCES += src/pg/sql/constrain/line_points.c
 PG_SOURCES += src/pg/sql/constrain/line_rows.c
 PG_SOURCES += src/pg/sql/constrain/named_rows.c
+PG_SOURCES += src/pg/sql/constrain/new_lines.c
 PG_SOURCES += src/pg/sql/draw/drawing.c
 PG_SOURCES += src/pg/sql/draw/fn_draw.c
 PG_SOURCES += src/pg/sql/draw/fn_tile.c

@@ -37,11 +37,14 @@ line_crossings_add(LineCrossings *crossings, const uint64 *corners, size_t count
 	host_run(crossings->host, abacus_crossings_add_corners, crossings->swept, corners, count);
 }
 
-/* Adds the rows of a query of line, position, x and y, which are not NULL. SPI is connected. */
+/*
+ * Adds the rows of a query of line, position, x and y, which are not NULL. It reads what the active
+ * snapshot sees, or also what this command has changed. SPI is connected.
+ */
 void
-line_crossings_add_query(LineCrossings *crossings, const char *query)
+line_crossings_add_query(LineCrossings *crossings, const char *query, bool sees_changes)
 {
-	SPIParseOpenOptions options = {.cursorOptions = CURSOR_OPT_NO_SCROLL};
+	SPIParseOpenOptions options = {.cursorOptions = CURSOR_OPT_NO_SCROLL, .read_only = !sees_changes};
 	Portal		portal = SPI_cursor_parse_open(NULL, query, &options);
 	uint64	   *corners = palloc(ROWS_A_FETCH * CORNER_COLUMNS * sizeof(uint64));
 
@@ -103,7 +106,7 @@ add_lines(LineCrossings *crossings, Writer *writer)
 
 	SPI_connect();
 	line_crossings_add_query(crossings, psprintf("SELECT line, position, x, y FROM %s",
-												 lines_table_name(table)));
+												 lines_table_name(table)), true);
 	SPI_finish();
 }
 

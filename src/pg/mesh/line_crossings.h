@@ -28,7 +28,8 @@ enum
 
 extern void line_crossings_open(LineCrossings *crossings, size_t memory);
 extern void line_crossings_add(LineCrossings *crossings, const uint64 *corners, size_t count);
-extern void line_crossings_add_query(LineCrossings *crossings, const char *query);
+extern void line_crossings_add_query(LineCrossings *crossings, const char *query,
+									 bool sees_changes);
 extern bool line_crossings_next(LineCrossings *crossings, VertexTest is_vertex, void *context,
 								abacus_crossing *crossing);
 extern void line_crossings_close(LineCrossings *crossings);
