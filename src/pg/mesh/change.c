@@ -7,6 +7,8 @@
  */
 #include "postgres.h"
 
+#include "access/xact.h"
+
 #include "pg/base/settings.h"
 #include "pg/mesh/change.h"
 #include "pg/mesh/mesh_lines.h"
@@ -163,6 +165,18 @@ change_settle(Change *change)
 
 	if (change->build != NULL)
 		host_run(host, abacus_build_settle, change->build, change->writer.header);
+}
+
+/*
+ * From here on, queries of this session see the mesh as it has become; the change goes on. The core
+ * keeps its cache, since the transaction keeps others from changing the mesh.
+ */
+void
+change_show(Change *change)
+{
+	writer_store(&change->writer);
+	CommandCounterIncrement();
+	writer_continue(&change->writer);
 }
 
 /* Inserts the points of the stage. */
