@@ -39,6 +39,14 @@ SELECT abacus_constrain('field', 'SELECT 30, i, NULL, i, 5, i * 2 AS height FROM
 SELECT id, x, y, attributes[1] AS height FROM abacus_vertices('field') WHERE id > 32 ORDER BY id;
 SELECT * FROM abacus_check('field');
 
+-- What one row leaves out, another one gives; but two rows may not give different heights.
+SELECT abacus_constrain('field', $$ SELECT l, p, NULL, x, 9, h AS height FROM (VALUES (70, 1, 8, 1.5), (70, 2, 9, NULL), (71, 1, 9, 2.5), (71, 2, 10, NULL)) AS r (l, p, x, h) $$);
+SELECT id, x, y, attributes[1] AS height FROM abacus_vertices('field') WHERE y = 9 ORDER BY id;
+SELECT abacus_constrain('field', $$ SELECT l, p, NULL, x, 7, h AS height FROM (VALUES (72, 1, 8, 1.5), (72, 2, 9, 3.5), (73, 1, 9, 2.5), (73, 2, 10, NULL)) AS r (l, p, x, h) $$);
+SELECT abacus_constrain('field', $$ SELECT l, p, 900 + x, x, 7, h AS height FROM (VALUES (72, 1, 8, 1.5), (72, 2, 9, 3.5), (73, 1, 9, 2.5), (73, 2, 10, NULL)) AS r (l, p, x, h) $$);
+SELECT abacus_unconstrain('field', 'VALUES (70), (71)');
+SELECT abacus_delete('field', 'SELECT id, x, y FROM abacus_vertices(''field'') WHERE y = 9');
+
 -- Lines that are there.
 SELECT abacus_constrain('field', 'VALUES (30, 1, 0), (30, 2, 20)');
 SELECT abacus_constrain('field', 'VALUES (30, 1, 0), (30, 2, 20), (31, 1, 0), (31, 2, 20)', existing => 'replace', kind => 'soft');

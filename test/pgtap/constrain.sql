@@ -100,6 +100,39 @@ SELECT is(abacus_constrain('field', 'SELECT 20 - i / 2, -i, CASE WHEN i = 5 THEN
 SELECT results_eq($$ SELECT line, position, point FROM abacus_lines('field') WHERE line >= 18 $$,
     $$ VALUES (18::bigint, -5::bigint, 9000::bigint), (18, -4, 9001), (19, -3, 9002), (19, -2, 9003), (20, -1, 9004), (20, 0, 9005) $$, 'have ids in this order');
 
+-- crossings: the error counts them and shows them, abacus_crossings returns them
+CREATE FUNCTION pg_temp.parts(statement text, OUT state text, OUT message text, OUT detail text, OUT hint text) LANGUAGE plpgsql AS $$
+BEGIN
+    EXECUTE statement;
+EXCEPTION WHEN OTHERS THEN
+    GET STACKED DIAGNOSTICS state = RETURNED_SQLSTATE, message = MESSAGE_TEXT, detail = PG_EXCEPTION_DETAIL, hint = PG_EXCEPTION_HINT;
+END $$;
+SELECT abacus_triangulate('wide', 'VALUES (1, 0, 0), (2, 100, 0), (3, 100, 100), (4, 0, 100), (5, 50, 50)');
+SELECT abacus_constrain('wide', 'VALUES (1, 1, NULL, 0, 10), (1, 2, NULL, 100, 10)');
+CREATE TABLE streets AS SELECT 10 + l AS line, p AS position, NULL::bigint AS point, l * 5 AS x, p * 90 + 5 AS y FROM generate_series(1, 15) AS l, generate_series(0, 1) AS p
+    UNION ALL VALUES (90, 1, NULL::bigint, 0, 0), (90, 2, NULL, 100, 100), (91, 1, NULL, 0, 100), (91, 2, NULL, 100, 0);
+SELECT results_eq($$ SELECT state, message, split_part(detail, E'\n', 1), cardinality(string_to_array(detail, E'\n')), hint FROM pg_temp.parts($x$ SELECT abacus_constrain('wide', 'TABLE streets') $x$) $$,
+    $$ SELECT '22023', 'lines cross', format('There are %s crossings; these are the first ten:', count(*)), 11, 'Find all crossings with abacus_crossings().' FROM abacus_crossings('wide', 'TABLE streets') $$, 'the number and ten of them');
+SELECT results_eq($$ SELECT split_part(detail, E'\n', 2) FROM pg_temp.parts($x$ SELECT abacus_constrain('wide', 'TABLE streets') $x$) $$,
+    $$ SELECT format('Line %s after position %s crosses line %s after position %s at (%s, %s).', line_a, position_a, line_b, position_b, x, y) FROM abacus_crossings('wide', 'TABLE streets') LIMIT 1 $$, 'in words');
+SELECT is((SELECT count(*) FROM abacus_crossings('wide', 'TABLE streets') WHERE line_a = 1), 17::bigint, 'lines of the mesh are crossed');
+SELECT is_empty($$ SELECT * FROM abacus_crossings('wide', 'TABLE streets') WHERE (x, y) = (50, 50) $$, 'not in a vertex');
+SELECT is((SELECT count(*) FROM abacus_lines('wide')), 2::bigint, 'nothing has changed');
+SELECT is((SELECT count(*) FROM abacus_vertices('wide')), 7::bigint, 'nor are there new points');
+SELECT abacus_unconstrain('wide', 'VALUES (1)');
+SELECT is(abacus_constrain('wide', 'VALUES (2, 1, 1), (2, 2, 3), (3, 1, 1), (3, 2, 5)'), 2::bigint, 'lines may overlap');
+SELECT results_eq($$ SELECT detail FROM pg_temp.parts($x$ SELECT abacus_constrain('wide', 'VALUES (4, 1, NULL, 30, 40), (4, 2, NULL, 40, 30)') $x$) $$,
+    $$ VALUES (E'There are 2 crossings:\nLine 2 after position 1 crosses line 4 after position 1 at (35, 35).\nLine 3 after position 1 crosses line 4 after position 1 at (35, 35).') $$, 'each pair is one');
+SELECT is(abacus_constrain('wide', 'VALUES (2, 1, NULL, 0, 10), (2, 2, NULL, 0, 100)', existing => 'replace'), 1::bigint, 'a line of that id is left out');
+SELECT results_eq($$ SELECT state, detail FROM pg_temp.parts($x$ SELECT abacus_constrain('wide', 'VALUES (2, 1, NULL, 5, 0), (2, 2, NULL, 5, 20)', existing => 'replace') $x$) $$,
+    $$ VALUES ('22023', 'Line 2 after position 1 crosses line 3 after position 1 at (5, 5).') $$, 'a line that replaces another crosses');
+SELECT is((SELECT count(*) FROM abacus_crossings('wide', 'VALUES (1, 1, 1), (1, 2, 4), (3, 1, 2), (3, 2, 3)')), 0::bigint, 'the lines of the query instead of those with the same ids');
+-- points and lines in one call
+SELECT is(abacus_triangulate('with_lines', 'TABLE point', lines => 'VALUES (1, 1, 0), (1, 2, 22)'), abacus_triangulate('without', 'TABLE point'), 'points and lines in one call');
+SELECT is((SELECT count(*) FROM abacus_edges('with_lines', fixed => true)), 1::bigint, 'which fixes edges');
+SELECT throws_ok($$ SELECT abacus_triangulate('wrong', 'TABLE point', lines => 'SELECT 1') $$, '42804', 'the query of lines returns 1 column');
+SELECT throws_ok($$ SELECT abacus_triangulate('wrong', 'TABLE point', lines => 'DELETE FROM point') $$, '22023', NULL, 'lines come from a SELECT');
+
 -- meshes that cannot have lines
 SELECT abacus_triangulate('solid', 'SELECT i, i % 2, i / 2 % 2, i / 4 FROM generate_series(0, 7) AS i', dimension => 3);
 SELECT throws_ok($$ SELECT abacus_constrain('solid', 'VALUES (1, 1, 0), (1, 2, 1)') $$, '55000', 'mesh "solid" has dimension 3', 'in space');
@@ -126,6 +159,7 @@ SELECT throws_ok($$ SELECT abacus_constrain('cap', 'VALUES (1, 1, 0), (1, 2, 30)
 SELECT throws_ok($$ SELECT abacus_constrain('field', 'VALUES (50, 1, 0), (50, 2, 30)') $$, '42501', 'permission denied for table field_lines');
 SELECT throws_ok($$ SELECT * FROM abacus_lines('field') $$, '42501', 'permission denied for table field_lines');
 SELECT throws_ok($$ SELECT * FROM abacus_edges('field', fixed => true) $$, '42501', 'permission denied for table field_lines');
+SELECT throws_ok($$ SELECT * FROM abacus_crossings('field', 'VALUES (1, 1, 0, 0)') $$, '42501', 'permission denied for table field_lines');
 RESET ROLE;
 GRANT ALL ON field_lines TO surveyor;
 SET ROLE surveyor;
@@ -166,6 +200,8 @@ CREATE OPERATOR hostile.< (LEFTARG = bigint, RIGHTARG = bigint, FUNCTION = hosti
 SET LOCAL search_path = hostile, public, pg_catalog;
 SELECT is(public.abacus_constrain('field', 'VALUES (1, 1, NULL, 0, 0), (1, 2, 30, 3, 0)', existing => 'replace') > 0, true, 'a hostile search path');
 SELECT is(public.abacus_unconstrain('field', 'VALUES (1)') > 0, true, 'the same');
+SELECT is((SELECT count(*) > 0 FROM public.abacus_crossings('field', 'VALUES (1, 1, 0), (1, 2, 30)')), false, 'the same of crossings');
+SELECT throws_ok($$ SELECT public.abacus_constrain('field', 'VALUES (801, 1, 0), (801, 2, 22), (802, 1, 2), (802, 2, 30)') $$, '22023', 'lines cross', 'the same of their error');
 SELECT is(public.abacus_delete('field', 'VALUES (0, 0, 0)') > 0, true, 'the same in questions of the core');
 RESET search_path;
 

@@ -93,39 +93,74 @@ refuse_existing(const char *table)
 				 errhint("Use existing => 'replace' to put the new line in its place.")));
 }
 
-/* The record of a new point, from a row of its id, place and attributes. */
-static void
-pack_point(const HeapTuple tuple, TupleDesc desc, uint64 *record, uint32 attributes)
+/* The new points of lines, and those read from them so far. */
+typedef struct PointReader
 {
-	double	   *numbers = (double *) (record + 1);
+	Change	   *change;
+	uint32		attributes;
+	uint64	   *record;			/* of the last point: its id, its place and its attributes */
+	bool		any;
+} PointReader;
+
+/* The attributes that the last point lacks, from a row that names it. */
+static void
+take_attributes(PointReader *reader, Datum array)
+{
+	double	   *attributes = (double *) (reader->record + 3);
 	Datum	   *values;
 	bool	   *nulls;
-	bool		isnull;
-	int			count = 0;
-	Datum		array;
+	int			count;
 
-	record[0] = (uint64) DatumGetInt64(SPI_getbinval(tuple, desc, 1, &isnull));
-	for (int axis = 0; axis < 2; axis++)
-		numbers[axis] = DatumGetFloat8(SPI_getbinval(tuple, desc, 2 + axis, &isnull));
-	array = SPI_getbinval(tuple, desc, 4, &isnull);
-	if (!isnull)
-		deconstruct_array(DatumGetArrayTypeP(array), FLOAT8OID, sizeof(float8), FLOAT8PASSBYVAL,
-						  TYPALIGN_DOUBLE, &values, &nulls, &count);
-	for (uint32 i = 0; i < attributes; i++)
-		numbers[2 + i] = (int) i < count && !nulls[i] ? DatumGetFloat8(values[i]) : NAN;
+	deconstruct_array(DatumGetArrayTypeP(array), FLOAT8OID, sizeof(float8), FLOAT8PASSBYVAL,
+					  TYPALIGN_DOUBLE, &values, &nulls, &count);
+	for (int i = 0; i < count && i < (int) reader->attributes; i++)
+		if (!nulls[i] && isnan(attributes[i]))
+			attributes[i] = DatumGetFloat8(values[i]);
+	pfree(values);
+	pfree(nulls);
 }
 
-/* Puts the new points of the lines into the change's stage. */
+/* Takes a row of a new point: its id, place and attributes. */
+static void
+take_point(PointReader *reader, HeapTuple tuple, TupleDesc desc)
+{
+	double	   *numbers = (double *) (reader->record + 1);
+	bool		isnull;
+	uint64		id = (uint64) DatumGetInt64(SPI_getbinval(tuple, desc, 1, &isnull));
+	Datum		array;
+
+	if (!reader->any || id != reader->record[0])
+	{
+		if (reader->any)
+			change_add(reader->change, reader->record, 1);
+		reader->any = true;
+		reader->record[0] = id;
+		for (int axis = 0; axis < 2; axis++)
+			numbers[axis] = DatumGetFloat8(SPI_getbinval(tuple, desc, 2 + axis, &isnull));
+		for (uint32 i = 0; i < reader->attributes; i++)
+			numbers[2 + i] = NAN;
+	}
+	array = SPI_getbinval(tuple, desc, 4, &isnull);
+	if (!isnull)
+		take_attributes(reader, array);
+}
+
+/*
+ * Puts the new points of the lines into the change's stage, in the order of the first rows that name
+ * them. What one row does not say about a point, another one may.
+ */
 static void
 stage_points(Change *change)
 {
 	const abacus_facts *facts = &change->writer.header->facts;
-	uint64	   *record = palloc((3 + facts->columns.attributes) * sizeof(uint64));
+	PointReader reader = {.change = change,.attributes = facts->columns.attributes};
 	Portal		portal = SPI_cursor_open_with_args(
-		NULL, "SELECT point, x, y, attributes FROM (SELECT DISTINCT ON (point) point, x, y, attributes, "
-		"line, position FROM " LINE_POINTS " WHERE is_new ORDER BY point, line, position) AS s "
-		"ORDER BY line, position", 0, NULL, NULL, NULL, true, CURSOR_OPT_NO_SCROLL);
+		NULL, "SELECT point, x, y, attributes FROM (SELECT point, x, y, attributes, line, position, "
+		"first_value(line) OVER w AS line0, first_value(position) OVER w AS position0 FROM " LINE_POINTS
+		" WHERE is_new WINDOW w AS (PARTITION BY point ORDER BY line, position)) AS s "
+		"ORDER BY line0, position0, line, position", 0, NULL, NULL, NULL, true, CURSOR_OPT_NO_SCROLL);
 
+	reader.record = palloc((3 + reader.attributes) * sizeof(uint64));
 	change_open_stage(change, facts);
 	for (;;)
 	{
@@ -133,12 +168,11 @@ stage_points(Change *change)
 		if (SPI_processed == 0)
 			break;
 		for (uint64 i = 0; i < SPI_processed; i++)
-		{
-			pack_point(SPI_tuptable->vals[i], SPI_tuptable->tupdesc, record, facts->columns.attributes);
-			change_add(change, record, 1);
-		}
+			take_point(&reader, SPI_tuptable->vals[i], SPI_tuptable->tupdesc);
 		SPI_freetuptable(SPI_tuptable);
 	}
+	if (reader.any)
+		change_add(change, reader.record, 1);
 	SPI_cursor_close(portal);
 }
 
