@@ -32,7 +32,6 @@ constexpr std::uint64_t count_limit = std::uint64_t{1} << 62;
 
 // The counters are fields of one type without gaps, so they are stored as an array.
 constexpr std::size_t counter_count = sizeof(abacus_counters) / sizeof(std::uint64_t);
-static_assert(sizeof(abacus_counters) == counter_count * sizeof(std::uint64_t));
 /// Older headers do not have the last counters.
 constexpr std::size_t least_counters = offsetof(abacus_counters, passes) / sizeof(std::uint64_t);
 

@@ -387,13 +387,13 @@ TEST(Header, AnotherFormatIsSaid) {
     abacus_header header;
     abacus_error error{};
     const unsigned format = bytes[6] + 256u * bytes[7];
-    for (const unsigned other : {format - 1, format + 4, 0xffffu}) {
+    for (const unsigned other : {format - 1, format + 5, 0xffffu}) {
         bytes[6] = static_cast<unsigned char>(other);
         bytes[7] = static_cast<unsigned char>(other >> 8);
         ASSERT_EQ(abacus_header_decode(bytes.data(), bytes.size(), &header, &error), ABACUS_ERROR);
         EXPECT_EQ(error.kind, ABACUS_ERROR_STATE);
         EXPECT_EQ(error.message, "mesh is stored in format " + std::to_string(other) +
-                                     ", but this version of Abacus reads formats 3 to 6");
+                                     ", but this version of Abacus reads formats 3 to 7");
     }
     bytes[5] ^= 1;
     ASSERT_EQ(abacus_header_decode(bytes.data(), bytes.size(), &header, &error), ABACUS_ERROR);
@@ -518,6 +518,28 @@ TEST(Header, OfAMeshThatIsNotDelaunay) {
         h.facts.census.staged = h.facts.census.inserted = h.facts.census.vertices =
             h.facts.census.simplices = h.facts.census.ghosts = 0;
     }));
+}
+
+TEST(Header, OfAMeshWithLines) {
+    const auto taken = [](auto change) {
+        abacus_header header = full_header(1);
+        header.facts.form.dimension = 2;
+        header.facts.standing = ABACUS_CONSTRAINED;
+        header.facts.census.lines = 3;
+        change(header);
+        abacus_header decoded;
+        return decodes(encode(header), &decoded) &&
+               decoded.facts.standing == header.facts.standing &&
+               decoded.facts.census.lines == header.facts.census.lines &&
+               decoded.facts.census.lines_wait == header.facts.census.lines_wait;
+    };
+    EXPECT_TRUE(taken([](abacus_header &) {}));
+    EXPECT_TRUE(taken([](abacus_header &h) { h.facts.census.lines_wait = 1; }));
+    EXPECT_FALSE(taken([](abacus_header &h) { h.facts.census.lines_wait = 2; }));
+    EXPECT_FALSE(taken([](abacus_header &h) { h.facts.census.lines = 0; }));
+    EXPECT_FALSE(taken([](abacus_header &h) { h.facts.census.lines = UINT64_MAX; }));
+    EXPECT_FALSE(taken([](abacus_header &h) { h.facts.form.dimension = 3; }));
+    EXPECT_FALSE(taken([](abacus_header &h) { h.facts.standing = ABACUS_DELAUNAY; }));
 }
 
 TEST(Header, DamagedBytesNeverCrash) {
