@@ -160,6 +160,7 @@ TEST(ConstrainedMeshes, AreInterpolatedButNotByNaturalNeighbours) {
     build(mesh, 500);
     flip_edges(mesh, 5000, 15);
     call_constrained(mesh);
+    mesh.header.facts.census.soft_lines = 1;
     OpenMesh open(mesh, ample);
     abacus_interpolation how{};
     how.method = ABACUS_LINEAR;
@@ -174,7 +175,7 @@ TEST(ConstrainedMeshes, AreInterpolatedButNotByNaturalNeighbours) {
     how.method = ABACUS_NATURAL;
     EXPECT_EQ(open.interpolate(how, {0.4, 0.5}, &value), ABACUS_ERROR);
     EXPECT_EQ(open.error.kind, ABACUS_ERROR_UNSUPPORTED);
-    EXPECT_STREQ(open.error.hint, "Use the method linear.");
+    EXPECT_STREQ(open.error.hint, "Use the method linear, or hard lines.");
 }
 
 TEST(ConstrainedMeshes, HaveNoVoronoiCellsAndNoAlphaShape) {
