@@ -47,6 +47,10 @@ SELECT * FROM abacus_lines('field') WHERE line >= 30;
 -- Lines do not cross; what is in the way is shown, and nothing has changed.
 SELECT abacus_constrain('field', 'VALUES (40, 1, 0), (40, 2, 22), (41, 1, 2), (41, 2, 21)');
 SELECT count(*) FROM abacus_lines('field') WHERE line >= 40;
+-- More crossings than are shown; at a vertex is none.
+SELECT abacus_constrain('field', 'SELECT 50 + l, p, NULL, p * 5 - 1, l / 16.0 FROM generate_series(1, 4) AS l, generate_series(0, 1) AS p UNION ALL '
+    'SELECT 60 + l, p, NULL, l / 4.0, p * 2 - 1 FROM generate_series(1, 3) AS l, generate_series(0, 1) AS p');
+SELECT count(*) FROM abacus_lines('field') WHERE line >= 40;
 -- A point on an edge splits it, and both halves are fixed; without the point they are one again.
 SELECT abacus_insert('field', 'VALUES (1000, 1, 0.5, 1)');
 SELECT v0, v1, lines, kind FROM abacus_edges('field', fixed => true) WHERE lines = '{7,8}';
@@ -88,6 +92,33 @@ SELECT abacus_constrain('later', 'VALUES (4, 1, 30), (4, 2, 20)');
 SELECT abacus_unconstrain('later', 'VALUES (3)');
 SELECT v0, v1, lines FROM abacus_edges('later', fixed => true);
 SELECT * FROM abacus_check('later');
+-- Lines that cross each other wait, too; an error of what inserts the points, unless a vertex comes to the crossing.
+SELECT abacus_create('crossed', 2);
+SELECT abacus_stage('crossed', 'VALUES (1, 0, 0), (2, 4, 0), (3, 4, 4), (4, 0, 4)');
+SELECT abacus_constrain('crossed', 'VALUES (1, 1, 1), (1, 2, 3), (2, 1, 2), (2, 2, 4)');
+SELECT abacus_constrain('crossed', 'VALUES (3, 1, NULL, 1, 0), (3, 2, NULL, 1, 4)');
+CALL abacus_build('crossed');
+SELECT abacus_insert('crossed', 'VALUES (20, 2, 2)');
+SELECT abacus_unconstrain('crossed', 'VALUES (3)');
+SELECT abacus_insert('crossed', 'VALUES (20, 2, 2), (21, 1, 1), (22, 1, 3)');
+SELECT v0, v1, lines FROM abacus_edges('crossed', fixed => true);
+SELECT * FROM abacus_check('crossed');
+
+-- Points and lines at once.
+SELECT abacus_triangulate('at_once', 'SELECT id, x, y, height FROM point', lines => $$
+    VALUES (7, 1, 0, 0, 0), (7, 2, 21, 2, 1), (8, 1, NULL, 3, 2), (8, 2, NULL, 0.5, 0.5) $$);
+SELECT * FROM abacus_lines('at_once');
+SELECT v0, v1, lines, kind FROM abacus_edges('at_once', fixed => true);
+SELECT * FROM abacus_check('at_once');
+SELECT abacus_triangulate('ids', 'SELECT id, x, y FROM point', lines => 'VALUES (1, 1, 0), (1, 2, 32)');
+SELECT v0, v1, lines, kind FROM abacus_edges('ids', fixed => true);
+SELECT abacus_triangulate('none', 'SELECT id, x, y FROM point', lines => 'SELECT 1, 1, 1 WHERE false');
+SELECT to_regclass('none_lines') IS NULL AS no_table;
+SELECT abacus_triangulate('flat', 'VALUES (1, 0, 0), (2, 1, 0)', lines => 'VALUES (1, 1, 1), (1, 2, 2)');
+SELECT abacus_triangulate('bad', 'SELECT id, x, y FROM point', lines => 'VALUES (1, 1, 0), (1, 2, 22), (2, 1, 2), (2, 2, 21)');
+SELECT abacus_triangulate('bad', 'SELECT id, x, y, 0 FROM point', dimension => 3, lines => 'VALUES (1, 1, 0), (1, 2, 22)');
+SELECT to_regclass('bad') IS NULL AS no_mesh;
+DROP TABLE at_once, ids, none, flat;
 
 -- A mesh that loses its triangles keeps its lines.
 SELECT abacus_triangulate('small', 'VALUES (1, 0, 0), (2, 1, 0), (3, 0, 1)');

@@ -35,8 +35,17 @@ RESET work_mem;
 SELECT * FROM abacus_crossings('land', 'SELECT 1, 1, 0, 0 WHERE false');
 SELECT * FROM abacus_crossings('land', 'VALUES (1, 1, 0, 0)');
 SELECT * FROM abacus_crossings(NULL, 'VALUES (1, 1, 0, 0)');
+-- Rows of point ids; lines of the mesh, unless the query has one with the same id.
+SELECT * FROM abacus_crossings('land', 'VALUES (1, 1, 0), (1, 2, 23), (2, 1, 2), (2, 2, 11), (3, 1, 22), (3, 2, 2)');
+SELECT abacus_constrain('land', 'VALUES (1, 1, 0), (1, 2, 23), (5, 1, 22), (5, 2, 24)');
+SELECT * FROM abacus_crossings('land', 'VALUES (2, 1, 2), (2, 2, 11)');
+SELECT * FROM abacus_crossings('land', 'VALUES (2, 1, 2, 0), (2, 2, 0, 1), (5, 1, 9, 9), (5, 2, 9, 10)');
+SELECT * FROM abacus_crossings('land', 'VALUES (2, 1, 2), (2, 2, 11), (1, 1, 0), (1, 2, 12)');
+SELECT * FROM abacus_crossings('land', 'SELECT 1, 1, 1 WHERE false');
+SELECT * FROM abacus_crossings('land', 'VALUES (2, 1, 2), (2, 2, 1000)');
+SELECT * FROM abacus_crossings('land', 'VALUES (2, 1, 2), (2, 2, NULL)');
 -- Errors.
-SELECT * FROM abacus_crossings('land', 'VALUES (1, 1, 0)');
+SELECT * FROM abacus_crossings('land', 'VALUES (1, 1)');
 SELECT * FROM abacus_crossings('land', $$ VALUES ('a', 1, 0, 0) $$);
 SELECT * FROM abacus_crossings('land', $$ VALUES (1, 1.5, 0, 0) $$);
 SELECT * FROM abacus_crossings('land', $$ VALUES (1, 1, 0, 'b') $$);

@@ -57,9 +57,9 @@ ABACUS_API abacus_status abacus_build_lines(abacus_build *build, abacus_segments
 
 /*
  * fix: makes each segment an edge of the mesh, or a chain of edges, that is fixed. Its ends must be
- * vertices: ABACUS_ERROR (argument) if one is not, or if a segment crosses another one, or a fixed
- * edge, elsewhere than in a vertex. The mesh must have simplices; points that wait are inserted
- * before.
+ * vertices: ABACUS_ERROR (argument) if one is not. ABACUS_ERROR (crossing) if a segment crosses
+ * another one, or a fixed edge, elsewhere than in a vertex. The mesh must have simplices; points that
+ * wait are inserted before.
  */
 ABACUS_API abacus_status abacus_build_fix(abacus_build *build, abacus_segments *segments,
 										  abacus_header *header, abacus_error *error);
@@ -69,6 +69,13 @@ ABACUS_API abacus_status abacus_build_fix(abacus_build *build, abacus_segments *
  */
 ABACUS_API abacus_status abacus_build_unfix(abacus_build *build, abacus_segments *segments,
 											abacus_header *header, abacus_error *error);
+
+/*
+ * vertex_at: whether the mesh as it is being changed has a vertex at a place; ABACUS_END if not. The
+ * only call that may follow a failure: that of fix, because of a crossing.
+ */
+ABACUS_API abacus_status abacus_build_vertex_at(abacus_build *build, const double place[2],
+												abacus_error *error);
 
 /* ---- Reading --------------------------------------------------------------------------- */
 

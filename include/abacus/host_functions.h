@@ -46,7 +46,8 @@ typedef enum abacus_error_kind
 	ABACUS_ERROR_STATE,     /* not possible in the mesh's present state */
 	ABACUS_ERROR_LIMIT,     /* a limit of the format is exceeded */
 	ABACUS_ERROR_DUPLICATE, /* a point equals one that is there */
-	ABACUS_ERROR_UNSUPPORTED /* what the core does not do yet */
+	ABACUS_ERROR_UNSUPPORTED, /* what the core does not do yet */
+	ABACUS_ERROR_CROSSING   /* lines cross */
 } abacus_error_kind;
 
 /* Zero-terminated texts in PostgreSQL's style; detail and hint may be empty. */

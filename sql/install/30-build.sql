@@ -32,12 +32,13 @@ CREATE FUNCTION abacus_triangulate(
     attributes text[] DEFAULT NULL,
     dimension integer DEFAULT 2,
     lower double precision[] DEFAULT NULL,
-    upper double precision[] DEFAULT NULL)
+    upper double precision[] DEFAULT NULL,
+    lines text DEFAULT NULL)
 RETURNS bigint
 AS 'MODULE_PATHNAME', 'abacus_sql_triangulate_query'
 LANGUAGE C VOLATILE PARALLEL UNSAFE;
-COMMENT ON FUNCTION abacus_triangulate(text, text, text[], integer, double precision[], double precision[]) IS
-    'makes a mesh and triangulates the points of a query. Attributes are named after the columns of the query unless names are given. Returns the number of simplices. Shapes: the query returns id, x, y[, z] and the attributes; lower and upper are {x, y}, in space {x, y, z}. Units: lower and upper in those of the coordinates. Errors: those of abacus_create and abacus_insert';
+COMMENT ON FUNCTION abacus_triangulate(text, text, text[], integer, double precision[], double precision[], text) IS
+    'makes a mesh and triangulates the points of a query. Attributes are named after the columns of the query unless names are given. lines is another query, of lines as abacus_constrain takes them, whose segments become fixed edges. Returns the number of simplices. Shapes: the query returns id, x, y[, z] and the attributes; lower and upper are {x, y}, in space {x, y, z}. Units: lower and upper in those of the coordinates. Errors: those of abacus_create, abacus_insert and abacus_constrain';
 
 CREATE FUNCTION abacus_insert(mesh regclass, query text, on_duplicate text DEFAULT 'keep')
 RETURNS bigint

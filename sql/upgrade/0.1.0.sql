@@ -52,3 +52,5 @@ DROP FUNCTION abacus_draw(regclass, integer, integer, double precision[], double
 DROP FUNCTION abacus_draw_section(regclass, double precision[], double precision[], integer, integer, text, boolean, double precision[], double precision[], double precision, double precision);
 -- It takes a window and the range of an attribute, too.
 DROP FUNCTION abacus_vertices(regclass);
+-- It takes lines, too.
+DROP FUNCTION abacus_triangulate(text, text, text[], integer, double precision[], double precision[]);

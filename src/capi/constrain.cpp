@@ -58,6 +58,19 @@ abacus_status abacus_build_unfix(abacus_build *build, abacus_segments *segments,
     });
 }
 
+abacus_status abacus_build_vertex_at(abacus_build *build, const double place[2],
+                                     abacus_error *error) {
+    using namespace abacus;
+    return guard(error, [&] {
+        return build->build.visit([&]<int D>(Build<D> &opened) -> abacus_status {
+            if constexpr (D != 2)
+                throw Error(ABACUS_ERROR_ARGUMENT, "lines need a mesh of dimension 2");
+            else
+                return opened.has_vertex(finite_point<2>(place)) ? ABACUS_OK : ABACUS_END;
+        });
+    });
+}
+
 abacus_status abacus_edges_along(abacus_mesh *mesh, const double a[2], const double b[2],
                                  abacus_along_report report, void *context, int *is_whole,
                                  abacus_error *error) {

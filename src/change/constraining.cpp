@@ -47,6 +47,17 @@ template <int D> std::uint64_t Constraining<D>::unfix(Segments &segments) {
     }
 }
 
+template <int D> bool Constraining<D>::has_vertex(const Point<D> &p) {
+    if constexpr (D == 2) {
+        Delaunay<2> &mesh = work_.core->mesh;
+        const bool has = vertex_at(mesh, p) != unset;
+        mesh.finish(mesh.anywhere);
+        return has;
+    } else {
+        throw Error(ABACUS_ERROR_ARGUMENT, "lines need a mesh of dimension 2");
+    }
+}
+
 template class Constraining<2>;
 template class Constraining<3>;
 

@@ -15,6 +15,8 @@ public:
     std::uint64_t fix(Segments &segments);
     /// Frees the edges of all segments over which the host has no line.
     std::uint64_t unfix(Segments &segments);
+    /// Whether the mesh has a vertex at p.
+    bool has_vertex(const Point<D> &p);
 
 private:
     template <class Change> std::uint64_t each(Segments &segments, Change change);

@@ -66,7 +66,7 @@ void Fixing::require_free(Link edge, const Point<2> &from, const Point<2> &b) co
                    &y = cache_.point(vertex[(link_facet(edge) + 2) % 3]);
     if (orientation(x, y, b) >= 0) throw_no_vertex(b); // it is not beyond the edge
     if (cache_.is_fixed(edge))
-        throw Error(ABACUS_ERROR_ARGUMENT, "lines cross",
+        throw Error(ABACUS_ERROR_CROSSING, "lines cross",
                     "The segment from " + in_words(from) + " to " + in_words(b) +
                         " crosses a fixed edge from " + in_words(x) + " to " + in_words(y) + ".",
                     "Find all crossings with abacus_crossings().");

@@ -20,8 +20,8 @@ class Fixing {
 public:
     explicit Fixing(Delaunay<2> &mesh);
 
-    /// Fixes the segment from a to b. Throws an Error (argument) if one is not a vertex, or if the
-    /// segment crosses a fixed edge.
+    /// Fixes the segment from a to b. Throws an Error (argument) if one is not a vertex, and one
+    /// (crossing) if the segment crosses a fixed edge, before it changes anything there.
     void fix(const Point<2> &a, const Point<2> &b);
 
     /// Edges fixed so far that were not, and those that were not edges of the mesh before.

@@ -7,6 +7,8 @@
  */
 #include "postgres.h"
 
+#include "access/xact.h"
+
 #include "pg/base/settings.h"
 #include "pg/mesh/change.h"
 #include "pg/mesh/mesh_lines.h"
@@ -165,6 +167,18 @@ change_settle(Change *change)
 		host_run(host, abacus_build_settle, change->build, change->writer.header);
 }
 
+/*
+ * From here on, queries of this session see the mesh as it has become; the change goes on. The core
+ * keeps its cache, since the transaction keeps others from changing the mesh.
+ */
+void
+change_show(Change *change)
+{
+	writer_store(&change->writer);
+	CommandCounterIncrement();
+	writer_continue(&change->writer);
+}
+
 /* Inserts the points of the stage. */
 void
 change_insert(Change *change)
@@ -286,10 +300,8 @@ change_lines(Change *change, int64 more, int64 soft)
 void
 change_fix(Change *change)
 {
-	Host	   *host = change->writer.host;
-
 	change_open_build(change);
-	host_run(host, abacus_build_fix, change->build, change->fixed, change->writer.header);
+	mesh_lines_fix(&change->writer, change->build, change->fixed);
 	abacus_segments_close(change->fixed);
 	change->fixed = NULL;
 }

@@ -41,6 +41,7 @@ extern void change_swap_stages(Change *change);
 extern void change_open_build(Change *change);
 extern void change_hold(Change *change);
 extern void change_settle(Change *change);
+extern void change_show(Change *change);
 extern void change_insert(Change *change);
 extern uint64 change_delete(Change *change, bool exactly);
 extern uint64 change_update(Change *change, const uint32 *attributes, size_t count, bool exactly,

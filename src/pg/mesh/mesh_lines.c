@@ -18,6 +18,7 @@
 
 #include "pg/base/settings.h"
 #include "pg/host/guard.h"
+#include "pg/mesh/line_crossings.h"
 #include "pg/mesh/lines_table.h"
 #include "pg/mesh/mesh_lines.h"
 #include "pg/port/port.h"
@@ -33,6 +34,13 @@ typedef struct MeshLines
 	size_t		room;
 	MemoryContextCallback on_end;
 } MeshLines;
+
+/* A mesh that is being changed. */
+typedef struct MeshBuild
+{
+	Host	   *host;
+	abacus_build *build;
+} MeshBuild;
 
 static Relation
 mesh_of(const Host *host)
@@ -208,6 +216,33 @@ mesh_lines_open(Writer *writer, abacus_segments **segments)
 			 segments);
 }
 
+/* Called when lines cross: asks the build, which has the vertices of this change. */
+static bool
+is_vertex(void *context, const double *place)
+{
+	const MeshBuild *changed = context;
+
+	return host_run(changed->host, abacus_build_vertex_at, changed->build, place) == ABACUS_OK;
+}
+
+/*
+ * Fixes the edges of segments. All lines are in their table, so if some cross, the error can say
+ * which. Only then does anything look for them.
+ */
+void
+mesh_lines_fix(Writer *writer, abacus_build *build, abacus_segments *segments)
+{
+	Host	   *host = writer->host;
+	MeshBuild	changed = {host, build};
+	abacus_status status;
+
+	host_enter(host);
+	status = abacus_build_fix(build, segments, writer->header, &host->failure);
+	if (status == ABACUS_ERROR && host->failure.kind == ABACUS_ERROR_CROSSING)
+		line_crossings_refuse(writer, is_vertex, &changed);
+	host_leave(host, status);
+}
+
 /*
  * Fixes the edges of all lines, if lines wait and no point does any more. *segments is NULL, and
  * owned by the host's handle.
@@ -226,7 +261,7 @@ mesh_lines_fix_waiting(Writer *writer, abacus_build *build, abacus_segments **se
 				   psprintf("SELECT line, x, y FROM %s ORDER BY line, position",
 							lines_table_name(lines_table_require(mesh_of(host), MESH_WRITE))));
 	SPI_finish();
-	host_run(host, abacus_build_fix, build, *segments, writer->header);
+	mesh_lines_fix(writer, build, *segments);
 	abacus_segments_close(*segments);
 	*segments = NULL;
 	census->lines_wait = 0;

@@ -13,6 +13,7 @@
 #include "pg/mesh/mesh_lines.h"
 #include "pg/mesh/new_mesh.h"
 #include "pg/mesh/shape.h"
+#include "pg/sql/constrain/new_lines.h"
 
 SQL_FUNCTION(abacus_sql_triangulate);
 SQL_FUNCTION(abacus_sql_triangulate_query);
@@ -57,14 +58,35 @@ name_attributes(abacus_header *header, const Source *source)
 }
 
 /*
+ * Inserts points into a new mesh, and then lines, in one change; *header is that of the mesh.
+ * `vertices` is a call of abacus_vertices() in SQL.
+ */
+static void
+insert_with_lines(Oid mesh, Source *points, Source *lines, const char *vertices,
+				  abacus_header *header)
+{
+	Change	   *change = change_begin(mesh, "abacus_triangulate()");
+
+	new_lines_check_mesh(change);
+	change_read(change, points);
+	change_insert(change);
+	change_show(change);		/* the points of lines are found by a query */
+	new_lines_add(change, lines, vertices, "hard", EXISTING_ERROR);
+	abacus_header_copy(header, change->writer.header);
+	change_end(change);
+}
+
+/*
  * abacus_triangulate(mesh text, query text, attributes text[], dimension int,
- * lower float8[], upper float8[]) -> bigint
+ * lower float8[], upper float8[], lines text) -> bigint
  */
 Datum
 abacus_sql_triangulate_query(PG_FUNCTION_ARGS)
 {
 	abacus_header *header = palloc0(sizeof(abacus_header));
 	Source		source;
+	Source		lines;
+	bool		has_lines = !PG_ARGISNULL(6);
 	Oid			mesh;
 
 	if (PG_ARGISNULL(0) || PG_ARGISNULL(1) || PG_ARGISNULL(3))
@@ -78,11 +100,18 @@ abacus_sql_triangulate_query(PG_FUNCTION_ARGS)
 				 PG_ARGISNULL(5) ? NULL : PG_GETARG_ARRAYTYPE_P(5));
 
 	source_prepare(&source, text_to_cstring(PG_GETARG_TEXT_PP(1)));
+	if (has_lines)
+		source_prepare(&lines, text_to_cstring(PG_GETARG_TEXT_PP(6)));
 	if (PG_ARGISNULL(2))
 		name_attributes(header, &source);
 	mesh = new_mesh(PG_GETARG_TEXT_PP(0), get_func_namespace(fcinfo->flinfo->fn_oid), header,
 					"abacus_triangulate()");
-	change_insert_query(mesh, &source, "abacus_triangulate()", header);
+	if (has_lines)
+		insert_with_lines(mesh, &source, &lines, new_lines_vertices(fcinfo->flinfo->fn_oid, mesh), header);
+	else
+		change_insert_query(mesh, &source, "abacus_triangulate()", header);
+	if (has_lines)
+		source_finish(&lines);
 	source_finish(&source);
 	PG_RETURN_INT64((int64) header->facts.census.simplices);
 }

@@ -1,35 +1,27 @@
 /*
- * fn_crossings.c: abacus_crossings, where segments of lines cross elsewhere than in a vertex.
- *
- * The query gives corners of lines, in any order; the core sorts them. A crossing is left out only
- * if it is exactly at a vertex of the mesh, so that no place is rounded there.
+ * fn_crossings.c: abacus_crossings, where segments of lines cross elsewhere than in a vertex: of the
+ * lines of a query, and of those of the mesh that have other ids.
  */
 #include "postgres.h"
 
 #include <math.h>
 
+#include "access/table.h"
 #include "catalog/pg_type.h"
 #include "funcapi.h"
 #include "utils/builtins.h"
 #include "utils/lsyscache.h"
 
-#include "abacus/crossings.h"
 #include "pg/base/settings.h"
 #include "pg/base/sql_function.h"
 #include "pg/input/source.h"
+#include "pg/mesh/line_crossings.h"
+#include "pg/mesh/lines_table.h"
 #include "pg/mesh/mesh_cache.h"
+#include "pg/sql/constrain/line_points.h"
+#include "pg/sql/constrain/new_lines.h"
 
 SQL_FUNCTION(abacus_sql_crossings);
-
-/* Columns of the query. Those of abacus_constrain() have the point's id before x. */
-enum
-{
-	CORNER_LINE,
-	CORNER_POSITION,
-	CORNER_X,
-	CORNER_Y,
-	CORNER_COLUMNS
-};
 
 /* Columns of the result */
 enum
@@ -44,6 +36,9 @@ enum
 };
 
 #define ROWS_A_BATCH 1024
+
+/* So many columns name points of the mesh: line, position, point. */
+#define POINT_COLUMNS 3
 
 static const char *const corner_columns[CORNER_COLUMNS] = {"line", "position", "x", "y"};
 
@@ -78,9 +73,9 @@ corners_begin(Corners *corners, TupleDesc desc)
 		ereport(ERROR,
 				(errcode(ERRCODE_DATATYPE_MISMATCH),
 				 errmsg("source query returns %d columns, but lines take at least %d", desc->natts,
-						CORNER_COLUMNS),
-				 errdetail("Columns are matched by position: line, position, x, y, or line, "
-						   "position, point, x, y.")));
+						POINT_COLUMNS),
+				 errdetail("Columns are matched by position: line, position, point, or line, position, "
+						   "x, y, or line, position, point, x, y.")));
 	for (int i = 0; i < CORNER_COLUMNS; i++)
 	{
 		bool		is_id = i < CORNER_X;
@@ -124,7 +119,7 @@ to_double(Oid type, Datum value)
 	}
 }
 
-/* The record of a row for abacus_crossings_add_corners(). */
+/* The record of a row for line_crossings_add(). */
 static void
 pack_corner(Corners *corners, HeapTuple row, uint64 *record)
 {
@@ -158,10 +153,26 @@ pack_corner(Corners *corners, HeapTuple row, uint64 *record)
 	}
 }
 
-/* Gives the rows of a prepared query to the core. */
+/* Notes the ids of lines, a few times each. */
 static void
-read_corners(Source *source, Host *host, abacus_crossings *crossings)
+note_lines(NamedRows *ids, const uint64 *records, uint64 count)
 {
+	for (uint64 i = 0; i < count; i++)
+	{
+		Datum		id = Int64GetDatum((int64) records[i * CORNER_COLUMNS + CORNER_LINE]);
+		bool		isnull = false;
+
+		if (i == 0 || records[i * CORNER_COLUMNS + CORNER_LINE] != records[(i - 1) * CORNER_COLUMNS + CORNER_LINE])
+			named_rows_put(ids, &id, &isnull);
+	}
+}
+
+/* Gives the rows of a prepared query to the core; returns the ids of the lines. */
+static NamedRows *
+read_corners(Source *source, LineCrossings *crossings)
+{
+	static const NamedColumn columns[] = {{"line", INT8OID}};
+	NamedRows  *ids = named_rows_create(LINE_IDS, columns, lengthof(columns));
 	Portal		portal = SPI_cursor_open(NULL, source->plan, NULL, NULL, true);
 	uint64	   *records = palloc(ROWS_A_BATCH * CORNER_COLUMNS * sizeof(uint64));
 	Corners		corners;
@@ -178,11 +189,46 @@ read_corners(Source *source, Host *host, abacus_crossings *crossings)
 		for (uint64 i = 0; i < count; i++)
 			pack_corner(&corners, SPI_tuptable->vals[i], records + i * CORNER_COLUMNS);
 		SPI_freetuptable(SPI_tuptable);
-		host_run(host, abacus_crossings_add_corners, crossings, records, count);
+		line_crossings_add(crossings, records, count);
+		note_lines(ids, records, count);
 	}
 	SPI_freetuptable(SPI_tuptable);
 	SPI_cursor_close(portal);
 	pfree(records);
+	named_rows_register(ids);
+	return ids;
+}
+
+/* The same for rows that name points of the mesh by their ids. */
+static NamedRows *
+read_points(Source *source, LineCrossings *crossings, const char *vertices)
+{
+	abacus_header *header = palloc0(sizeof(abacus_header));
+	NewLines	lines = {.vertices = vertices, .names = abacus_names_of(header)};
+	NamedRows  *rows = line_rows_read(source, lines.names, &lines.shape);
+	NamedRows  *points;
+	int			level = plain_names_begin(false);
+
+	named_rows_register(rows);
+	line_points_check(&lines);
+	points = line_points_find(&lines);
+	line_crossings_add_query(crossings, "SELECT line, position, x, y FROM " LINE_POINTS, false);
+	named_rows_free(points);
+	plain_names_end(level);
+	return rows;
+}
+
+/* Adds the lines of the mesh whose ids are not among those given. */
+static void
+add_present(LineCrossings *crossings, const char *table, const NamedRows *ids)
+{
+	int			level = plain_names_begin(false);
+
+	line_crossings_add_query(crossings,
+							 psprintf("SELECT l.line, l.position, l.x, l.y FROM %s AS l WHERE NOT EXISTS "
+									  "(SELECT FROM %s AS g WHERE g.line = l.line)", table, ids->name),
+							 false);
+	plain_names_end(level);
 }
 
 /* The mesh, for its vertices; only a mesh in the plane has lines. */
@@ -195,9 +241,28 @@ get_mesh(Oid mesh)
 	return cached;
 }
 
-static bool
-is_vertex(CachedMesh *cached, const double *place)
+/* The table of its lines, as a name in SQL; NULL if it has none. */
+static char *
+get_lines(Oid mesh)
 {
+	CachedMesh *cached = get_mesh(mesh);
+	uint64		lines = cached->header.facts.census.lines;
+	Relation	heap;
+	char	   *name;
+
+	host_release(cached->host);
+	if (lines == 0)
+		return NULL;
+	heap = table_open(mesh, NoLock);	/* locked since the mesh was got */
+	name = lines_table_name(lines_table_require(heap, MESH_READ));
+	table_close(heap, NoLock);
+	return name;
+}
+
+static bool
+is_vertex(void *context, const double *place)
+{
+	CachedMesh *cached = context;
 	int64_t		id;
 
 	return host_run(cached->host, abacus_mesh_vertex_at, cached->mesh, place, &id) == ABACUS_OK;
@@ -226,25 +291,29 @@ Datum
 abacus_sql_crossings(PG_FUNCTION_ARGS)
 {
 	ReturnSetInfo *set = (ReturnSetInfo *) fcinfo->resultinfo;
-	Host	   *host;
+	Oid			mesh = PG_GETARG_OID(0);
 	CachedMesh *cached;
 	Source		source;
-	abacus_crossings *crossings = NULL;
+	LineCrossings crossings;
 	abacus_crossing crossing;
+	NamedRows  *given;
+	char	   *lines;
 
 	InitMaterializedSRF(fcinfo, 0);
 	source_prepare(&source, text_to_cstring(PG_GETARG_TEXT_PP(1)));
-	host_release(get_mesh(PG_GETARG_OID(0))->host);
-	host = host_create(CurrentMemoryContext);
-	host_run(host, abacus_crossings_open, &host->table, setting_query_sort_bytes(), &crossings);
-	host_own(host, crossings, (void (*) (void *)) abacus_crossings_close);
-	read_corners(&source, host, crossings);
-	cached = get_mesh(PG_GETARG_OID(0)); /* anew, since the query may have read meshes */
-	while (host_run(host, abacus_crossings_next, crossings, &crossing) == ABACUS_OK)
-		if (!crossing.is_exact || !is_vertex(cached, crossing.place))
-			put_crossing(set, &crossing);
+	lines = get_lines(mesh);
+	line_crossings_open(&crossings, setting_query_sort_bytes());
+	given = source_columns(&source) == POINT_COLUMNS
+		? read_points(&source, &crossings, new_lines_vertices(fcinfo->flinfo->fn_oid, mesh))
+		: read_corners(&source, &crossings);
+	if (lines != NULL)
+		add_present(&crossings, lines, given);
+	cached = get_mesh(mesh);	/* anew, since the query may have read meshes */
+	while (line_crossings_next(&crossings, is_vertex, cached, &crossing))
+		put_crossing(set, &crossing);
 	host_release(cached->host);
-	host_destroy(host);
+	line_crossings_close(&crossings);
+	named_rows_free(given);
 	source_finish(&source);
 	PG_RETURN_NULL();
 }
