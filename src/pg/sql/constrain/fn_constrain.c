@@ -80,19 +80,20 @@ remove_lines(Change *change)
 {
 	Oid			table = mesh_lines_table(mesh_of(change), MESH_WRITE);
 	uint64		gone = 0;
+	int64		soft = 0;
 	Datum		ids;
 	bool		isnull;
 	int			level = plain_names_begin(true);
 
 	query_first("SELECT count(DISTINCT line) FROM " LINE_IDS, &ids, &isnull, 1);
 	if (OidIsValid(table))
-		gone = new_lines_delete(change, lines_table_name(table), "SELECT line FROM " LINE_IDS);
+		gone = new_lines_delete(change, lines_table_name(table), "SELECT line FROM " LINE_IDS, &soft);
 	plain_names_end(level);
 	tell_of_unknown(change, (uint64) DatumGetInt64(ids), gone);
 	if (gone > 0)
 	{
 		change_unfix(change);
-		change_lines(change, -(int64) gone);
+		change_lines(change, -(int64) gone, -soft);
 	}
 	return gone;
 }
