@@ -168,6 +168,10 @@ is_found('hurt', "INSERT INTO hurt_lines SELECT 5000, position, id, x, y, 'hard'
 is_found('hurt', "INSERT INTO hurt_lines SELECT 5000, position, id, x + 0.25, y, 'hard' FROM far JOIN sample USING (id)", qr/^lines\|Line 5000 lacks a fixed edge/, '... at no vertex');
 is_found('hurt', "INSERT INTO hurt_lines SELECT 5000, 1, id, x, y, 'hard' FROM sample LIMIT 1", qr/^lines\|The header counts more or fewer lines/, '... of one point');
 is_found('hurt', "INSERT INTO hurt_lines SELECT 5000, position, point, x, y, kind FROM hurt_lines WHERE line = 5", qr/^lines\|The header counts more or fewer lines/, '... on an edge that is fixed');
+my $wrong = qr/^lines\|Line 7 has a coordinate that is not finite, or a kind that is not known/;
+is_found('hurt', "UPDATE hurt_lines SET y = 'NaN' WHERE line = 7", $wrong, 'no number');
+is_found('hurt', "UPDATE hurt_lines SET x = '-Infinity' WHERE line = 7", $wrong, 'no finite number');
+is_found('hurt', "UPDATE hurt_lines SET kind = 'other' WHERE line = 7", $wrong, 'no kind');
 is_found('hurt', 'UPDATE hurt_lines SET x = x + 1 WHERE line = 7 AND position = 1', qr/^lines\|Line 7 lacks a fixed edge/, 'a point is moved');
 
 # A standby reads lines, and changes none
