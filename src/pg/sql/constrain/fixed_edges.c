@@ -198,9 +198,9 @@ read_window(Reader *reader, const abacus_window *window, double max_edge)
 }
 
 /*
- * Looks for a fault of the lines of a sound mesh, which has so many fixed edges: a line without one
- * of its edges, fixed edges that belong to no line, lines that are not counted. Returns what is
- * wrong, or NULL.
+ * Looks for a fault of the lines of a sound mesh, which has so many fixed edges: values that no line
+ * has, a line without one of its edges, fixed edges that belong to no line, lines that are not
+ * counted. Returns what is wrong, or NULL.
  */
 char *
 fixed_edges_fault(Oid mesh, uint64 fixed)
@@ -223,6 +223,18 @@ fixed_edges_fault(Oid mesh, uint64 fixed)
 	edges.rows = named_rows_create(EDGES_ON_LINES, edge_columns, lengthof(edge_columns));
 	bound(&edges, &whole);
 	level = plain_names_begin(false);
+	query_first(psprintf("SELECT min(line) FROM %s WHERE x - x <> 0 OR y - y <> 0 OR "
+						 "kind NOT IN ('hard', 'soft')", table), counts, isnull, 1);
+	if (!isnull[0])
+	{
+		plain_names_end(level);
+		fault = MemoryContextStrdup(memory, psprintf("Line " INT64_FORMAT " has a coordinate that is not "
+													 "finite, or a kind that is not known.",
+													 DatumGetInt64(counts[0])));
+		named_rows_free(edges.rows);
+		SPI_finish();
+		return fault;
+	}
 	add_lines(&edges, table);
 	named_rows_register(edges.rows);
 	query_first(psprintf("SELECT (SELECT count(*) FROM (SELECT DISTINCT v0, v1, x0, y0, x1, y1 FROM "
