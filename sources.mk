@@ -328,6 +328,7 @@ PG_SOURCES += src/pg/sql/constrain/fixed_edges.c
 PG_SOURCES += src/pg/sql/constrain/fn_constrain.c
 PG_SOURCES += src/pg/sql/constrain/fn_crossings.c
 PG_SOURCES += src/pg/sql/constrain/fn_lines.c
+PG_SOURCES += src/pg/sql/constrain/line_geometries.c
 PG_SOURCES += src/pg/sql/constrain/line_points.c
 PG_SOURCES += src/pg/sql/constrain/line_rows.c
 PG_SOURCES += src/pg/sql/constrain/named_rows.c

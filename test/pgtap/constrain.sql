@@ -12,8 +12,8 @@ SELECT is((SELECT count(*) FROM pg_attribute AS a, col_description(a.attrelid, a
 CREATE TABLE point AS SELECT 10 * x + y AS id, x, y, x * 0.5 AS h FROM generate_series(0, 3) AS x, generate_series(0, 2) AS y WHERE NOT (x = 1 AND y = 1);
 SELECT abacus_triangulate('field', 'TABLE point');
 SELECT abacus_constrain('field', 'VALUES (1, 1, 0), (1, 2, 30)');
-SELECT is((SELECT string_agg(col_description('field_lines'::regclass, n), ';' ORDER BY n) FROM generate_series(1, 6) AS n),
-          (SELECT string_agg(col_description('abacus_line_point'::regclass, n), ';' ORDER BY n) FROM generate_series(1, 6) AS n), 'columns of the table have them, too');
+SELECT is((SELECT string_agg(col_description('field_lines'::regclass, n), ';' ORDER BY n) FROM generate_series(1, 7) AS n),
+          (SELECT string_agg(col_description('abacus_line_point'::regclass, n), ';' ORDER BY n) FROM generate_series(1, 7) AS n), 'columns of the table have them, too');
 
 CREATE FUNCTION pg_temp.state() RETURNS text LANGUAGE sql AS $$
     SELECT concat((SELECT string_agg(l::text, ';') FROM abacus_lines('field') AS l), (SELECT string_agg(v::text, ';') FROM abacus_vertices('field') AS v),

@@ -90,7 +90,7 @@ INSERT INTO wanted VALUES
     ('abacus_alpha_shape', 'mesh regclass, alpha double precision, allow_holes boolean DEFAULT NULL::boolean, OUT ring bigint, OUT "position" bigint, OUT vertex bigint, OUT x double precision, OUT y double precision, OUT z double precision', 'SETOF record', 's', false, 's'),
     ('abacus_constrain', 'mesh regclass, query text, kind text DEFAULT ''hard''::text, existing text DEFAULT ''error''::text, z text DEFAULT NULL::text', 'bigint', 'v', false, 'u'),
     ('abacus_unconstrain', 'mesh regclass, query text', 'bigint', 'v', true, 'u'),
-    ('abacus_lines', 'mesh regclass, OUT line bigint, OUT "position" bigint, OUT point bigint, OUT x double precision, OUT y double precision, OUT kind text', 'SETOF record', 's', true, 's'),
+    ('abacus_lines', 'mesh regclass, OUT line bigint, OUT "position" bigint, OUT point bigint, OUT x double precision, OUT y double precision, OUT kind text, OUT part bigint', 'SETOF record', 's', true, 's'),
     ('abacus_spanning_tree', 'mesh regclass, OUT v0 bigint, OUT v1 bigint, OUT length double precision', 'SETOF record', 's', true, 's'),
     ('abacus_neighbours', 'mesh regclass, simplex abacus_simplex, steps integer', 'SETOF abacus_simplex', 's', true, 's'),
     ('abacus_simplices', 'mesh regclass, center double precision[], radius double precision', 'SETOF abacus_simplex', 's', true, 's'),

@@ -118,10 +118,11 @@ static void
 add_lines(EdgeRows *edges, const char *table)
 {
 	Portal		portal = SPI_cursor_open_with_args(
-		NULL, psprintf("SELECT line, x, y, kind = 'hard' FROM %s ORDER BY line, position", table),
+		NULL, psprintf("SELECT line, x, y, kind = 'hard', coalesce(part, 0) FROM %s ORDER BY line, position", table),
 		0, NULL, NULL, NULL, true, CURSOR_OPT_NO_SCROLL);
 	bool		any = false;
 	double		last[2];
+	int64		last_part = 0;
 
 	for (;;)
 	{
@@ -134,15 +135,17 @@ add_lines(EdgeRows *edges, const char *table)
 			TupleDesc	desc = SPI_tuptable->tupdesc;
 			bool		isnull;
 			int64		line = DatumGetInt64(SPI_getbinval(tuple, desc, 1, &isnull));
+			int64		part = DatumGetInt64(SPI_getbinval(tuple, desc, 5, &isnull));
 			double		at[2];
 
 			for (int axis = 0; axis < 2; axis++)
 				at[axis] = DatumGetFloat8(SPI_getbinval(tuple, desc, 2 + axis, &isnull));
 			edges->is_hard = DatumGetBool(SPI_getbinval(tuple, desc, 4, &isnull));
-			if (any && line == edges->line)
+			if (any && line == edges->line && part == last_part)
 				add_segment(edges, last, at);
 			any = true;
 			edges->line = line;
+			last_part = part;
 			memcpy(last, at, sizeof(at));
 		}
 		SPI_freetuptable(SPI_tuptable);

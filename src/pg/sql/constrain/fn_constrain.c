@@ -84,7 +84,7 @@ delete_lines(Change *change, const char *table, const char *ids)
 		return 0;
 	mesh_lines_open(&change->writer, &change->freed);
 	mesh_lines_add(change->writer.host, change->freed,
-				   psprintf("SELECT l.line, l.x, l.y FROM %s AS l WHERE l.line IN (%s) "
+				   psprintf("SELECT l.line, l.x, l.y, l.part FROM %s AS l WHERE l.line IN (%s) "
 							"ORDER BY l.line, l.position", table, ids));
 	query_run(psprintf("DELETE FROM %s AS l WHERE l.line IN (%s)", table, ids));
 	return (uint64) DatumGetInt64(count);
@@ -203,7 +203,7 @@ change_edges(Change *change)
 		return;
 	mesh_lines_open(&change->writer, &change->fixed);
 	mesh_lines_add(change->writer.host, change->fixed,
-				   "SELECT line, x, y FROM " LINE_POINTS " ORDER BY line, position");
+				   "SELECT line, x, y, part FROM " LINE_POINTS " ORDER BY line, position");
 	change_fix(change);
 }
 
@@ -229,8 +229,8 @@ add_lines(Change *change, const NewLines *lines, const char *kind, int existing)
 		refuse_existing(table);
 	else
 		replaced = delete_lines(change, table, "SELECT line FROM " LINE_ROWS);
-	query_run(psprintf("INSERT INTO %s (line, position, point, x, y, kind) SELECT line, position, point, x, y, "
-					   "'%s' FROM " LINE_POINTS " ORDER BY line, position", table, kind));
+	query_run(psprintf("INSERT INTO %s (line, position, point, x, y, kind, part) SELECT line, position, point, "
+					   "x, y, '%s', part FROM " LINE_POINTS " ORDER BY line, position", table, kind));
 	if (is_new)
 		lines_table_index(mesh_of(change));
 	change_lines(change, DatumGetInt64(count) - (int64) replaced);
@@ -243,14 +243,14 @@ add_lines(Change *change, const NewLines *lines, const char *kind, int existing)
 
 /* Reads the rows of a prepared query, and adds its lines. */
 static uint64
-constrain(Change *change, Source *source, const char *vertices, const char *kind, int existing)
+constrain(Change *change, Source *source, NewLines *lines, const char *kind, int existing)
 {
-	NewLines	lines = {.vertices = vertices, .names = abacus_names_of(change->writer.header)};
 	NamedRows  *rows;
 	uint64		count;
 
 	check_mesh(change);
-	rows = line_rows_read(source, lines.names, &lines.shape);
+	lines->names = abacus_names_of(change->writer.header);
+	rows = line_rows_read(source, lines->names, lines->z, &lines->shape);
 	if (rows->count == 0)
 	{
 		named_rows_free(rows);
@@ -258,8 +258,9 @@ constrain(Change *change, Source *source, const char *vertices, const char *kind
 		return 0;
 	}
 	named_rows_register(rows);
-	count = add_lines(change, &lines, kind, existing);
+	count = add_lines(change, lines, kind, existing);
 	named_rows_free(rows);
+	change_take_srid(change, lines->shape.srid);
 	tell_of_waiting(change);
 	change_end(change);
 	return count;
@@ -272,8 +273,8 @@ abacus_sql_constrain(PG_FUNCTION_ARGS)
 	const char *kind;
 	int			existing;
 	Source		source;
-	uint64		lines;
-	char	   *vertices;
+	NewLines	lines = {0};
+	uint64		count;
 
 	if (PG_ARGISNULL(0) || PG_ARGISNULL(1))
 		ereport(ERROR,
@@ -282,19 +283,15 @@ abacus_sql_constrain(PG_FUNCTION_ARGS)
 	kind = kinds[word_argument(fcinfo, 2, kinds, "kind", "Use 'hard' or 'soft'.")];
 	existing = word_argument(fcinfo, 3, existing_words, "existing", "Use 'error' or 'replace'.");
 	if (!PG_ARGISNULL(4))
-		ereport(ERROR,
-				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
-				 errmsg("z is for lines given as geometries"),
-				 errhint("Name a column of the query \"%s\", after x and y.",
-						 text_to_cstring(PG_GETARG_TEXT_PP(4)))));
+		lines.z = text_to_cstring(PG_GETARG_TEXT_PP(4));
 	source_prepare(&source, text_to_cstring(PG_GETARG_TEXT_PP(1)));
-	vertices = psprintf("%s('%u'::regclass)",
-						quote_qualified_identifier(get_namespace_name(get_func_namespace(fcinfo->flinfo->fn_oid)),
-												   "abacus_vertices"), PG_GETARG_OID(0));
-	lines = constrain(change_begin(PG_GETARG_OID(0), "abacus_constrain()"), &source, vertices, kind,
+	lines.vertices = psprintf("%s('%u'::regclass)",
+							  quote_qualified_identifier(get_namespace_name(get_func_namespace(fcinfo->flinfo->fn_oid)),
+														 "abacus_vertices"), PG_GETARG_OID(0));
+	count = constrain(change_begin(PG_GETARG_OID(0), "abacus_constrain()"), &source, &lines, kind,
 					  existing);
 	source_finish(&source);
-	PG_RETURN_INT64((int64) lines);
+	PG_RETURN_INT64((int64) count);
 }
 
 /* ---- abacus_unconstrain ------------------------------------------------------------------ */

@@ -29,7 +29,7 @@ table_of(Oid mesh)
 	return name;
 }
 
-/* abacus_lines(mesh regclass) -> line, position, point, x, y, kind */
+/* abacus_lines(mesh regclass) -> line, position, point, x, y, kind, part */
 Datum
 abacus_sql_lines(PG_FUNCTION_ARGS)
 {
@@ -43,7 +43,7 @@ abacus_sql_lines(PG_FUNCTION_ARGS)
 		PG_RETURN_NULL();
 	SPI_connect();
 	level = plain_names_begin(false);
-	query_into(set->setResult, psprintf("SELECT line, position, point, x, y, kind FROM %s "
+	query_into(set->setResult, psprintf("SELECT line, position, point, x, y, kind, part FROM %s "
 										"ORDER BY line, position", table));
 	plain_names_end(level);
 	SPI_finish();
