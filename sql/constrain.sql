@@ -89,6 +89,20 @@ SELECT abacus_unconstrain('later', 'VALUES (3)');
 SELECT v0, v1, lines FROM abacus_edges('later', fixed => true);
 SELECT * FROM abacus_check('later');
 
+-- A mesh that loses its triangles keeps its lines.
+SELECT abacus_triangulate('small', 'VALUES (1, 0, 0), (2, 1, 0), (3, 0, 1)');
+SELECT abacus_constrain('small', 'VALUES (1, 1, 1), (1, 2, 2)');
+SELECT abacus_delete('small', 'VALUES (3, 0, 1), (1, 0, 0)');
+SELECT abacus_delete('small', 'VALUES (3, 0, 1)');
+SELECT abacus_delete('small', 'VALUES (1, 0, 0)');
+SELECT id, vertex FROM abacus_vertices('small');
+SELECT abacus_insert('small', 'VALUES (3, 0, 1)');
+SELECT v0, v1, lines FROM abacus_edges('small', fixed => true);
+SELECT abacus_insert('small', 'VALUES (9, 0, 0)', on_duplicate => 'replace');
+SELECT v0, v1, lines FROM abacus_edges('small', fixed => true);
+SELECT point, x, y FROM abacus_lines('small');
+SELECT * FROM abacus_check('small');
+
 -- A mesh that follows a table gets lines between its points, and only these.
 CREATE TABLE tracked (id int, x float8, y float8);
 INSERT INTO tracked SELECT id, x, y FROM point;

@@ -169,6 +169,19 @@ SELECT pg_temp.inject('reading markers', $$ SELECT count(*) FROM abacus_facets('
 SELECT pg_temp.inject('a picture of labels', $$ SELECT abacus_draw('wide', 64, attribute => 'least') $$, 'SELECT true');
 SELECT is_empty($$ SELECT * FROM abacus_check('wide') $$, 'it is sound');
 
+-- fixed edges
+SELECT abacus_triangulate('fenced', 'SELECT i AS id, (i * 7919) % 1009 AS x, (i * 104729) % 997 AS y FROM generate_series(1, 1500) AS i');
+CREATE TABLE fence AS SELECT row_number() OVER (ORDER BY v0, v1) AS line, v0, v1 FROM abacus_edges('fenced') WHERE v0 % 5 = 0;
+SELECT pg_temp.inject('lines', $$ SELECT abacus_constrain('fenced', 'SELECT line, 1, v0 FROM fence UNION ALL SELECT line, 2, v1 FROM fence') $$,
+    $$ SELECT to_regclass('fenced_lines') IS NULL AND NOT EXISTS (SELECT FROM abacus_lines('fenced')) $$);
+SELECT pg_temp.inject('fixed edges', $$ SELECT count(*) FROM abacus_edges('fenced', fixed => true) $$, 'SELECT true');
+SELECT pg_temp.inject('deletion beside lines', $$ SELECT abacus_delete('fenced', 'SELECT v.id, v.x, v.y FROM abacus_vertices(''fenced'') AS v WHERE v.id % 3 = 1 AND NOT EXISTS (SELECT FROM fence AS f WHERE v.id IN (f.v0, f.v1))') $$,
+    $$ SELECT count(*) = 1500 FROM abacus_vertices('fenced') $$);
+SELECT pg_temp.inject('lines go', $$ SELECT abacus_unconstrain('fenced', 'SELECT line FROM fence WHERE line % 2 = 0') $$,
+    $$ SELECT (SELECT count(DISTINCT line) FROM abacus_lines('fenced')) = (SELECT count(*) FROM fence) $$);
+SELECT is_empty($$ SELECT * FROM abacus_check('fenced') $$, 'it is sound');
+SELECT is((SELECT count(*) FROM abacus_edges('fenced', fixed => true)), (SELECT count(*) FROM fence WHERE line % 2 = 1), 'the edges of the other lines are fixed');
+
 -- meshes made elsewhere, Delaunay and not
 CREATE TABLE triangles AS SELECT v0, v1, v2 FROM abacus_simplices('made');
 SELECT pg_temp.inject('load', $$ SELECT abacus_load('loaded', 'SELECT id, x, y FROM abacus_vertices(''made'')', 'TABLE triangles') $$,

@@ -89,6 +89,7 @@ INSERT INTO wanted VALUES
     ('abacus_hull', 'mesh regclass, max_edge double precision DEFAULT NULL::double precision, OUT ring bigint, OUT "position" bigint, OUT vertex bigint, OUT x double precision, OUT y double precision, OUT z double precision', 'SETOF record', 's', false, 's'),
     ('abacus_alpha_shape', 'mesh regclass, alpha double precision, allow_holes boolean DEFAULT NULL::boolean, OUT ring bigint, OUT "position" bigint, OUT vertex bigint, OUT x double precision, OUT y double precision, OUT z double precision', 'SETOF record', 's', false, 's'),
     ('abacus_constrain', 'mesh regclass, query text, kind text DEFAULT ''hard''::text, existing text DEFAULT ''error''::text, z text DEFAULT NULL::text', 'bigint', 'v', false, 'u'),
+    ('abacus_crossings', 'mesh regclass, query text, OUT line_a bigint, OUT position_a bigint, OUT line_b bigint, OUT position_b bigint, OUT x double precision, OUT y double precision', 'SETOF record', 'v', true, 'u'),
     ('abacus_unconstrain', 'mesh regclass, query text', 'bigint', 'v', true, 'u'),
     ('abacus_lines', 'mesh regclass, OUT line bigint, OUT "position" bigint, OUT point bigint, OUT x double precision, OUT y double precision, OUT kind text, OUT part bigint', 'SETOF record', 's', true, 's'),
     ('abacus_spanning_tree', 'mesh regclass, OUT v0 bigint, OUT v1 bigint, OUT length double precision', 'SETOF record', 's', true, 's'),

@@ -215,6 +215,7 @@ change_delete(Change *change, bool exactly)
 
 	change_open_build(change);
 	settle_lines(change);
+	mesh_lines_refuse_waiting(&change->writer);
 	host_run(host, abacus_build_delete, change->build, change->stage, exactly,
 			 change->writer.header, &deleted);
 	return deleted;

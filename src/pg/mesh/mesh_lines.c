@@ -243,6 +243,24 @@ mesh_lines_fix_waiting(Writer *writer, abacus_build *build, abacus_segments **se
 	census->lines_wait = 0;
 }
 
+/*
+ * An error if points are about to go while lines wait: the core knows which vertices lines name, but
+ * not which points that wait.
+ */
+void
+mesh_lines_refuse_waiting(const Writer *writer)
+{
+	if (writer->header->facts.census.lines_wait == 0)
+		return;
+	ereport(ERROR,
+			(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
+			 errmsg("cannot delete points of mesh \"%s\", since its lines wait for points",
+					RelationGetRelationName(mesh_of(writer->host))),
+			 errdetail("The mesh has no triangles."),
+			 errhint("Insert points that span a triangle, or remove the lines first, with "
+					 "abacus_unconstrain().")));
+}
+
 /* An error if all points are about to go, but lines name some of them. */
 void
 mesh_lines_refuse_clearing(const Writer *writer)
