@@ -254,6 +254,7 @@ PG_SOURCES += src/pg/fdw/estimate.c
 PG_SOURCES += src/pg/fdw/fn_publish.c
 PG_SOURCES += src/pg/fdw/fn_wrapper.c
 PG_SOURCES += src/pg/fdw/geometry_column.c
+PG_SOURCES += src/pg/fdw/line_views.c
 PG_SOURCES += src/pg/fdw/mesh_rows.c
 PG_SOURCES += src/pg/fdw/nearest.c
 PG_SOURCES += src/pg/fdw/order.c

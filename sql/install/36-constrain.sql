@@ -45,3 +45,17 @@ AS 'MODULE_PATHNAME', 'abacus_sql_lines'
 LANGUAGE C STABLE STRICT PARALLEL SAFE COST 1000 ROWS 1000;
 COMMENT ON FUNCTION abacus_lines(regclass) IS
     'the lines of a mesh as they were given, in the order of line and position. Neighbouring points are joined if their part is the same. A mesh that never had lines has none. Units: x and y in those of the coordinates. Errors: 42809 not a mesh, 42501 no privilege on the table of lines';
+
+CREATE FUNCTION _abacus_fixed_edges(
+    mesh regclass,
+    OUT v0 bigint,
+    OUT v1 bigint,
+    OUT length double precision,
+    OUT lines bigint[],
+    OUT kind text,
+    OUT path double precision[])
+RETURNS SETOF record
+AS 'MODULE_PATHNAME', 'abacus_sql_fixed_edges'
+LANGUAGE C STABLE STRICT PARALLEL SAFE COST 10000 ROWS 1000;
+COMMENT ON FUNCTION _abacus_fixed_edges(regclass) IS
+    'inside abacus_publish: fixed edges with the places of their ends';

@@ -93,10 +93,20 @@ SELECT throws_ok($$ SELECT abacus_constrain('field', 'SELECT line, geom::geograp
 SELECT throws_ok($$ SELECT abacus_constrain('field', 'SELECT 30, geom FROM shape') $$, '23505', 'line 30 has two geometries');
 SELECT throws_ok($$ SELECT abacus_constrain('field', 'TABLE shape') $$, '23505', 'the mesh already has a line 1');
 SELECT throws_ok($$ SELECT abacus_constrain('field', 'SELECT line, position, point, 1.5 AS part FROM line') $$, '42804', 'column 4 of the query of lines has type numeric');
-SELECT throws_ok($$ SELECT abacus_constrain('field', 'SELECT 30, position, point, position AS part FROM line WHERE line = 3') $$, '22023', 'part 1 of line 30 has only one point, at position 1');
-SELECT throws_ok($$ SELECT abacus_constrain('field', 'SELECT 30, position, point, position % 2 AS part FROM line WHERE line = 3') $$, '22023', 'part 1 of line 30 has only one point, at position 1');
+SELECT throws_ok($$ SELECT abacus_constrain('field', 'SELECT 30, position, point, position AS part FROM line WHERE line = 3') $$, '22023', 'part 1 of line 30 has one point alone, or begins twice');
+SELECT throws_ok($$ SELECT abacus_constrain('field', 'SELECT 30, position, point, position / 2 % 2 AS part FROM line WHERE line = 2') $$, '22023', 'part 0 of line 30 has one point alone, or begins twice');
 SELECT abacus_create('none', 2);
 SELECT throws_ok($$ SELECT abacus_constrain('none', 'SELECT line, ST_SetSRID(geom, 2000 + line) FROM shape') $$, '22023', 'geometry of line 2 has SRID 2002, but earlier geometries have SRID 2001', 'mixed SRIDs');
+
+-- published
+SELECT is(abacus_publish('field')::text, '{field_cells,field_points,field_fixed_edges,field_breaklines}', 'published');
+SELECT is_empty($$ SELECT FROM field_breaklines AS l JOIN shape USING (line) WHERE l.kind <> 'hard' OR ST_SRID(l.geom) <> 2154 OR
+    ARRAY(SELECT ST_AsText(geom) FROM ST_DumpPoints(l.geom)) <> ARRAY(SELECT ST_AsText(ST_Force2D(geom)) FROM ST_DumpPoints(shape.geom)) OR
+    ST_NumGeometries(l.geom) <> (SELECT count(DISTINCT part) FILTER (WHERE part IS NOT NULL) + count(DISTINCT line) FILTER (WHERE part IS NULL) FROM line AS p WHERE p.line = l.line) $$, 'lines are what was given, part by part');
+SELECT is((SELECT count(*) FROM field_breaklines), (SELECT count(DISTINCT line) FROM abacus_lines('field')), 'all of them');
+SELECT is_empty($$ SELECT FROM field_fixed_edges WHERE ST_Length(geom) <> length OR ST_SRID(geom) <> 2154 $$, 'edges are as long as they are');
+SELECT ok(ST_Equals((SELECT ST_Union(geom) FROM field_fixed_edges), (SELECT ST_Union(geom) FROM field_breaklines)), 'they are where the lines are');
+SELECT is(abacus_unpublish('field'), 4, 'and not published any more');
 
 -- an attribute with the name part comes first
 SELECT abacus_add_attribute('field', 'part');

@@ -36,24 +36,25 @@ place(const Datum *values)
 
 /* ---- Checks of the rows alone ------------------------------------------------------ */
 
-/* A point of a line with several parts that is joined to no other. */
+/* A part of a line that has one point, or whose points do not follow one another. */
 static void
 check_parts(void)
 {
 	Datum		values[3];
 	bool		isnull[3];
 
-	if (query_first("SELECT line, part, position FROM (SELECT line, position, coalesce(part, 0) AS part, "
-					"lag(coalesce(part, 0)) OVER w AS before, lead(coalesce(part, 0)) OVER w AS after "
-					"FROM " LINE_ROWS " WINDOW w AS (PARTITION BY line ORDER BY position)) AS s "
-					"WHERE part IS DISTINCT FROM before AND part IS DISTINCT FROM after "
-					"ORDER BY line, position LIMIT 1", values, isnull, 3))
-		ereport(ERROR,
-				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
-				 errmsg("part " INT64_FORMAT " of line " INT64_FORMAT " has only one point, at position "
-						INT64_FORMAT, DatumGetInt64(values[1]), DatumGetInt64(values[0]),
-						DatumGetInt64(values[2])),
-				 errhint("Number the points of each part in sequence.")));
+	if (!query_first("SELECT line, part, min(position) FROM (SELECT line, position, coalesce(part, 0) AS part, "
+					 "lag(coalesce(part, 0)) OVER (PARTITION BY line ORDER BY position) AS before "
+					 "FROM " LINE_ROWS ") AS s GROUP BY line, part "
+					 "HAVING count(*) = 1 OR count(*) FILTER (WHERE part IS DISTINCT FROM before) > 1 "
+					 "ORDER BY line, min(position) LIMIT 1", values, isnull, 3))
+		return;
+	ereport(ERROR,
+			(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+			 errmsg("part " INT64_FORMAT " of line " INT64_FORMAT " has one point alone, or begins twice",
+					DatumGetInt64(values[1]), DatumGetInt64(values[0])),
+			 errdetail("Its first point is at position " INT64_FORMAT ".", DatumGetInt64(values[2])),
+			 errhint("Number the points of each part in sequence.")));
 }
 
 static void

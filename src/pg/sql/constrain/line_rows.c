@@ -381,7 +381,8 @@ read_points(LineReader *reader, Source *source, abacus_names names, LineShape *s
 	find_part(reader, names);
 	if (columns < 3 || (columns == 4 && reader->part < 0))
 		refuse_count(columns, "Rows of lines have three columns, or five and more.",
-					 "Return line, position and the id of a point; x, y and attributes may follow.");
+					 "Return line, position and the id of a point; x, y and attributes may follow, and "
+					 "a column named part. With PostGIS, return line and a geometry.");
 	shape->has_places = columns > reader->ids + 1;
 	shape->has_attributes = shape->has_places && has_attributes(reader);
 	shape->has_parts = reader->part >= 0;
