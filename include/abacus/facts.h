@@ -71,6 +71,7 @@ typedef struct abacus_census
 							  unless 0 the mesh was loaded and is not Delaunay, and no attribute is
 							  apart */
 	uint64_t lines;        /* that the host keeps; unless 0 the mesh is constrained */
+	uint64_t soft_lines;   /* of them, the soft ones */
 	uint64_t lines_wait;   /* 1: their edges are not fixed yet, as the points span no simplex */
 	uint64_t outside;      /* points that came where the domain does not fit them, outside it or to
 							  a code that fills pages, since it was last chosen */

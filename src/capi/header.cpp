@@ -35,8 +35,8 @@ constexpr std::size_t counter_count = sizeof(abacus_counters) / sizeof(std::uint
 /// Older headers do not have the last counters.
 constexpr std::size_t least_counters = offsetof(abacus_counters, passes) / sizeof(std::uint64_t);
 
-/// A name of 63 bytes at most, and zeros; then the type of the column, which was 0 before there were
-/// types: doubles.
+/// A name of 63 bytes at most, and zeros; then the type of the column, which was 0 before there
+/// were types: doubles.
 constexpr std::size_t type_byte = ABACUS_NAME_BYTES - 1;
 
 class Writer {
@@ -215,6 +215,12 @@ template <class Facts, class Visit> void visit_label_fields(Facts &facts, Visit 
     visit(columns.inherits);
 }
 
+template <class Census, class Visit> void visit_line_fields(Census &census, Visit &visit) {
+    visit(census.lines);
+    visit(census.soft_lines);
+    visit(census.lines_wait);
+}
+
 /// Whether the facts need the latest format.
 bool is_extended(const abacus_facts &facts) {
     return facts.census.split > 0 || is_wide(facts.columns) || facts.standing == ABACUS_CONSTRAINED;
@@ -244,7 +250,7 @@ void check_lines(const abacus_facts &facts, bool has_lines) {
     const abacus_census &census = facts.census;
     const bool is_constrained = facts.standing == ABACUS_CONSTRAINED;
     if (is_constrained != has_lines || is_constrained != (census.lines > 0) ||
-        census.lines >= count_limit || census.lines_wait > census.lines || census.lines_wait > 1 ||
+        census.lines >= count_limit || census.soft_lines > census.lines || census.lines_wait > 1 ||
         (is_constrained &&
          (facts.form.dimension != 2 || (census.vertices == 0 && census.lines_wait == 0))))
         throw_corrupted("The header's count of lines is not valid.");
@@ -256,10 +262,7 @@ void read_labels(HeaderReader &read, std::uint64_t found, abacus_header &header)
     abacus_facts &facts = header.facts;
     visit_label_fields(facts, read);
     if (extended) read(facts.census.split);
-    if (has_lines) {
-        read(facts.census.lines);
-        read(facts.census.lines_wait);
-    }
+    if (has_lines) visit_line_fields(facts.census, read);
     if (facts.form.srid > ABACUS_MAX_SRID) throw_corrupted("The header's SRID is out of range.");
     check_labels(facts);
     check_split(facts);
@@ -399,10 +402,7 @@ size_t abacus_header_encode(const abacus_header *header, unsigned char *bytes) {
     if (extended || is_labelled(facts)) {
         visit_label_fields(facts, write);
         if (extended) write(facts.census.split);
-        if (facts.standing == ABACUS_CONSTRAINED) {
-            write(facts.census.lines);
-            write(facts.census.lines_wait);
-        }
+        if (facts.standing == ABACUS_CONSTRAINED) visit_line_fields(facts.census, write);
         if (!is_wide(facts.columns))
             write.names(*header, extended ? 0 : facts.columns.attributes, names_of(facts.columns));
     } else if (facts.form.srid != 0) {

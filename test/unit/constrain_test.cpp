@@ -3,6 +3,7 @@
 // passes the in-circle test, and exactly the edges on segments are fixed.
 #include "constrain/fixing.hpp"
 #include "constrain/freeing.hpp"
+#include "query/values/sibson.hpp"
 #include "support/mesh_in_change.hpp"
 #include "support/point_sets.hpp"
 #include "support/sanitized.hpp"
@@ -183,6 +184,12 @@ const Input inputs[] = {{"Even", 400, even},
                         {"NearLine", 200, near_line},
                         {"OnCircle", 80, on_circle}};
 
+Point<2> any_of(const std::set<Point<2>> &points, Random &random) {
+    auto at = points.begin();
+    std::advance(at, random() % points.size());
+    return *at;
+}
+
 class ConstrainOf : public testing::TestWithParam<Input> {
 protected:
     std::vector<Point<2>> points(Random &random, std::size_t n) const {
@@ -193,9 +200,7 @@ protected:
         return result;
     }
     static Point<2> any(const Constrained &mesh, Random &random) {
-        auto at = mesh.points.begin();
-        std::advance(at, random() % mesh.points.size());
-        return *at;
+        return any_of(mesh.points, random);
     }
 };
 
@@ -280,6 +285,53 @@ TEST(Constrain, StarOfAThousandSegments) {
     mesh.verify();
     while (!mesh.lines.empty()) mesh.remove(mesh.lines.begin()->first);
     mesh.verify();
+}
+
+// What lies beyond a fixed edge is not seen; linear data come back.
+TEST(Constrain, NaturalNeighboursEndAtFixedEdges) {
+    Random random(21);
+    std::vector<Point<2>> points{{0.1, 0.5}, {0.9, 0.5}};
+    while (points.size() < 400) points.push_back(even(random));
+    Constrained mesh(points, 20 * little);
+    ASSERT_TRUE(mesh.add(0, {points[0], points[1]}));
+    for (std::int64_t line = 1; line < 30; ++line)
+        mesh.add(line, {any_of(mesh.points, random), any_of(mesh.points, random)});
+    for (std::int64_t line = 30; line < 130; ++line) { // edges of the mesh already
+        const Point<2> p = any_of(mesh.points, random);
+        const auto distance = [&](const Point<2> &q) {
+            return q == p ? 9 : std::hypot(q[0] - p[0], q[1] - p[1]);
+        };
+        mesh.add(line, {p, *std::min_element(mesh.points.begin(), mesh.points.end(),
+                                             [&](const Point<2> &a, const Point<2> &b) {
+                                                 return distance(a) < distance(b);
+                                             })});
+    }
+    Sibson<2> sibson(mesh.mesh.host());
+    int natural = 0;
+    for (int i = 0; i < 3000; ++i) {
+        Point<2> p = even(random);
+        if (i % 10 == 0) p = {0.1 + 0.8 * p[0], 0.5}; // on a line
+        const Link at = vertex_at(mesh.mesh.delaunay, p);
+        ASSERT_EQ(at, unset);
+        const Handle h = mesh.mesh.delaunay.locate(p, mesh.mesh.cache.domain().code(p), no_handle);
+        if (mesh.mesh.cache.simplex(h).is_ghost()) continue;
+        const bool found = sibson.find(mesh.mesh.cache, h, p);
+        if (i % 10 == 0) {
+            EXPECT_FALSE(found);
+        }
+        if (!found) continue;
+        ++natural;
+        Point<2> mean{};
+        for (std::size_t n = 0; n < sibson.count(); ++n) {
+            const Point<2> &v = mesh.mesh.cache.point(sibson.vertex(n));
+            EXPECT_GE(sibson.weight(n), 0);
+            for (int axis = 0; axis < 2; ++axis) mean[axis] += sibson.weight(n) * v[axis];
+            for (const auto &[line, s] : mesh.lines)
+                EXPECT_FALSE(sibson.weight(n) > 0 && cross(s, {p, v}));
+        }
+        for (int axis = 0; axis < 2; ++axis) EXPECT_NEAR(mean[axis], p[axis], 1e-9);
+    }
+    EXPECT_GT(natural, 2000);
 }
 
 TEST(Constrain, EndsMustBeVertices) {

@@ -267,15 +267,16 @@ change_clear(Change *change)
 }
 
 /*
- * The mesh has so many more lines, or fewer, in its table. To be called before their edges are fixed,
+ * The mesh has so many more lines, or fewer, in its table, and so many more soft ones. To be called before their edges are fixed,
  * and after they are freed.
  */
 void
-change_lines(Change *change, int64 more)
+change_lines(Change *change, int64 more, int64 soft)
 {
 	abacus_facts *facts = &change->writer.header->facts;
 
 	facts->census.lines += (uint64) more;
+	facts->census.soft_lines += (uint64) soft;
 	facts->standing = facts->census.lines > 0 ? ABACUS_CONSTRAINED : ABACUS_DELAUNAY;
 	if (facts->census.lines == 0)
 		facts->census.lines_wait = 0;

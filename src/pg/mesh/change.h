@@ -48,7 +48,7 @@ extern uint64 change_update(Change *change, const uint32 *attributes, size_t cou
 extern void change_attributes(Change *change, const uint32 *source, size_t count);
 extern void change_clear(Change *change);
 extern void change_stage(Change *change);
-extern void change_lines(Change *change, int64 more);
+extern void change_lines(Change *change, int64 more, int64 soft);
 extern void change_fix(Change *change);
 extern void change_unfix(Change *change);
 extern void change_report(Change *change, abacus_change_report report, void *context);

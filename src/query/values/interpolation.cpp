@@ -9,12 +9,14 @@ namespace abacus {
 
 namespace {
 
-/// Throws if they are not known: of a mesh with lines not yet.
+/// Throws if they are not known: beside soft lines, which do not end a zone, but hide from a circle
+/// what is in it.
 template <int D> void require_natural_neighbours(const Reader<D> &reader) {
+    if (reader.has_only_hard_lines()) return;
     if (reader.is_convex() && !reader.is_delaunay())
         throw Error(ABACUS_ERROR_UNSUPPORTED,
-                    "natural neighbours of a mesh with lines are not supported", fixed_edges,
-                    "Use the method linear.");
+                    "natural neighbours of a mesh with soft lines are not supported", fixed_edges,
+                    "Use the method linear, or hard lines.");
     require_delaunay(reader, "natural neighbours need",
                      "Use the method linear, or load the mesh with retriangulate => true.");
 }

@@ -31,6 +31,13 @@ template <int D> double growth(const Point<D> &a, const Point<D> &b) {
     return dot<D>(minus<D>(b, a), plus<D>(b, a));
 }
 
+/// Whether p, which the simplex contains or has in its circumsphere, is on a facet's line.
+template <int D> bool is_on_facet(const Cache<D> &cache, Handle h, int facet, const Point<D> &p) {
+    Corners<D> corners = cache.corners(cache.simplex(h));
+    corners[facet] = &p;
+    return orientation<D>(corners) == 0;
+}
+
 } // namespace
 
 template <int D> bool Sibson<D>::find_zone(Cache<D> &cache, Handle h, const Point<D> &p) {
@@ -44,6 +51,11 @@ template <int D> bool Sibson<D>::find_zone(Cache<D> &cache, Handle h, const Poin
         for (int i = 0; i <= D; ++i) {
             const Handle beyond = link_simplex(cache.cross(zone_[n], i));
             beyond_.push_back(beyond);
+            if (cache.is_fixed(make_link(zone_[n], i))) [[unlikely]] {
+                is_on_hull = is_on_hull || is_on_facet<D>(cache, zone_[n], i, p);
+                beyond_.back() = no_handle; // though it may be in the zone, too
+                continue;
+            }
             if (marks_.get(beyond) != Marks::none) continue;
             const Simplex<D> &s = cache.simplex(beyond);
             const Corners<D> corners = cache.corners(s);

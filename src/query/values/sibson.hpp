@@ -18,6 +18,9 @@
 // the edges of that facet. The facets are those between two simplices of the zone, those on its
 // rim, and those that p would form with the ridges of the rim.
 //
+// In a mesh with lines the zone ends at fixed edges, as a cell's share does at the hull: what lies
+// beyond is not seen, and the cell of p goes on there as if nothing did.
+//
 // The predicates of the triangulation find the zone, so it is star-shaped around p, as when p is
 // inserted.
 //
@@ -38,8 +41,8 @@ public:
           seen_(host), shares_(host), centres_(host), rim_(host), ridges_(host) {}
 
     /// Finds the natural neighbours of p, which lies in the closure of a finite simplex of a
-    /// Delaunay mesh, and is not a vertex. False if p is on the hull, where cells are unbounded, or
-    /// if doubles cannot represent the weights.
+    /// Delaunay mesh, constrained or not, and is not a vertex. False if p is on the hull or on a
+    /// fixed edge, where cells are unbounded, or if doubles cannot represent the weights.
     bool find(Cache<D> &cache, Handle h, const Point<D> &p);
 
     /// The result of find(): the neighbours and their weights, which sum to 1.

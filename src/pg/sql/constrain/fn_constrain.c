@@ -70,24 +70,26 @@ check_mesh(const Change *change)
 
 /*
  * Deletes the lines of a query of ids from the table, and keeps their segments; returns how many
- * there were.
+ * there were, and how many of them were soft.
  */
 static uint64
-delete_lines(Change *change, const char *table, const char *ids)
+delete_lines(Change *change, const char *table, const char *ids, int64 *soft)
 {
-	Datum		count;
-	bool		isnull;
+	Datum		counts[2];
+	bool		isnull[2];
 
-	query_first(psprintf("SELECT count(*) FROM (SELECT DISTINCT l.line FROM %s AS l "
-						 "WHERE l.line IN (%s)) AS s", table, ids), &count, &isnull, 1);
-	if (DatumGetInt64(count) == 0)
+	query_first(psprintf("SELECT count(*), count(*) FILTER (WHERE kind = 'soft') FROM "
+						 "(SELECT DISTINCT l.line, l.kind FROM %s AS l WHERE l.line IN (%s)) AS s",
+						 table, ids), counts, isnull, 2);
+	*soft = DatumGetInt64(counts[1]);
+	if (DatumGetInt64(counts[0]) == 0)
 		return 0;
 	mesh_lines_open(&change->writer, &change->freed);
 	mesh_lines_add(change->writer.host, change->freed,
 				   psprintf("SELECT l.line, l.x, l.y, l.part FROM %s AS l WHERE l.line IN (%s) "
 							"ORDER BY l.line, l.position", table, ids));
 	query_run(psprintf("DELETE FROM %s AS l WHERE l.line IN (%s)", table, ids));
-	return (uint64) DatumGetInt64(count);
+	return (uint64) DatumGetInt64(counts[0]);
 }
 
 /* ---- Lines that come ------------------------------------------------------------------ */
@@ -214,6 +216,7 @@ add_lines(Change *change, const NewLines *lines, const char *kind, int existing)
 	Datum		count;
 	bool		isnull;
 	uint64		replaced = 0;
+	int64		soft = 0;
 	char	   *table;
 	bool		is_new;
 	NamedRows  *points;
@@ -228,12 +231,13 @@ add_lines(Change *change, const NewLines *lines, const char *kind, int existing)
 	if (existing == EXISTING_ERROR)
 		refuse_existing(table);
 	else
-		replaced = delete_lines(change, table, "SELECT line FROM " LINE_ROWS);
+		replaced = delete_lines(change, table, "SELECT line FROM " LINE_ROWS, &soft);
 	query_run(psprintf("INSERT INTO %s (line, position, point, x, y, kind, part) SELECT line, position, point, "
 					   "x, y, '%s', part FROM " LINE_POINTS " ORDER BY line, position", table, kind));
 	if (is_new)
 		lines_table_index(mesh_of(change));
-	change_lines(change, DatumGetInt64(count) - (int64) replaced);
+	change_lines(change, DatumGetInt64(count) - (int64) replaced,
+				 (strcmp(kind, "soft") == 0 ? DatumGetInt64(count) : 0) - soft);
 	insert_points(change);
 	change_edges(change);
 	plain_names_end(level);
@@ -313,19 +317,20 @@ remove_lines(Change *change)
 {
 	Oid			table = mesh_lines_table(mesh_of(change), MESH_WRITE);
 	uint64		gone = 0;
+	int64		soft = 0;
 	Datum		ids;
 	bool		isnull;
 	int			level = plain_names_begin(true);
 
 	query_first("SELECT count(DISTINCT line) FROM " LINE_IDS, &ids, &isnull, 1);
 	if (OidIsValid(table))
-		gone = delete_lines(change, lines_table_name(table), "SELECT line FROM " LINE_IDS);
+		gone = delete_lines(change, lines_table_name(table), "SELECT line FROM " LINE_IDS, &soft);
 	plain_names_end(level);
 	tell_of_unknown(change, (uint64) DatumGetInt64(ids), gone);
 	if (gone > 0)
 	{
 		change_unfix(change);
-		change_lines(change, -(int64) gone);
+		change_lines(change, -(int64) gone, -soft);
 	}
 	return gone;
 }
