@@ -102,7 +102,9 @@ run_file() {
     *.md) documentation_examples "$1" ;;
     test/unit/*.cpp) unit "$(filter_of_file "$1")" ;;
     test/suite/*.py) report_tests "$name" ;;
-    test/oracle/*.py) oracle_tests "$name" ;;
+    test/oracle/*.py)
+        build_release oracle_constrained && oracle_tests "$name"
+        ;;
     test/viewer/*.js) viewer_tests "${name%.test.js}" ;;
     *) fail "$1 is not a test." ;;
     esac

@@ -3,8 +3,9 @@
 # compared with a plain table of the expected points, with CGAL, and with abacus_check; scripts/model_test.py
 # has the details.
 #
-#   model_test.sh [-t seconds] [-n worlds] [-s seed] [-w world]
+#   model_test.sh [lines] [-t seconds] [-n worlds] [-s seed] [-w world]
 #
+# With `lines`, points and lines of a mesh come and go, compared with a fresh mesh (scripts/model_lines.py).
 # Ends after that time (default 60 s), or after that many worlds. A failure prints the seed and the number of
 # the world; -s and -w run that world again.
 set -euo pipefail
@@ -20,4 +21,8 @@ fi
 cluster_start model_test
 run_psql -c "CREATE EXTENSION abacus"
 mkdir -p "$ABACUS_BUILD/model_test"
+if [[ ${1:-} == lines ]]; then
+    scripts/model_lines.py ${ABACUS_SEED:+-s "$ABACUS_SEED"} --folder "$ABACUS_BUILD/model_test" "${@:2}"
+    exit
+fi
 scripts/model_test.py ${ABACUS_SEED:+-s "$ABACUS_SEED"} --oracle "$oracle" --folder "$ABACUS_BUILD/model_test" "$@"

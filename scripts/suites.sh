@@ -152,10 +152,15 @@ report_tests() {
     python3 -m unittest discover -s test/suite -p "${1:-*_test.py}"
 }
 
-# Compares answers with those of SciPy, matplotlib and VTK, in a database of its own; takes names of files in
-# test/oracle. These are packages of the system's own Python.
+# Compares answers with those of SciPy, matplotlib, VTK and CGAL, in a database of its own; takes names of files
+# in test/oracle. These are packages of the system's own Python, but for oracle_constrained, which is built.
 oracle_tests() {
     run_psql -c "DROP DATABASE IF EXISTS abacus_oracle" -c "CREATE DATABASE abacus_oracle" &&
         run_psql -d abacus_oracle -c "CREATE EXTENSION abacus" &&
         PGDATABASE=abacus_oracle /usr/bin/python3 -m unittest discover -s test/oracle -p "${1:-*_test.py}"
+}
+
+# Those that have more points and more settings to compare.
+large_oracle_tests() {
+    ABACUS_LARGE=1 oracle_tests constrained_test.py
 }

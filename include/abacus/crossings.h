@@ -38,8 +38,9 @@ ABACUS_API abacus_status abacus_crossings_add(abacus_crossings *crossings,
 											  const abacus_line_segment *segments, size_t count,
 											  abacus_error *error);
 /*
- * Adds corners of lines, in any order: each 4 words of 8 bytes, line and position (signed), x and y
- * (doubles). A line has a segment from each of its corners to the one with the next position;
+ * Adds corners of lines, in any order: each 5 words of 8 bytes, line and position (signed), x and y
+ * (doubles), and the number of a part of the line (0 where there is only one). A line has a segment
+ * from each of its corners to the one with the next position, if that is of the same part;
  * ABACUS_ERROR (argument), later, if two have one position.
  */
 ABACUS_API abacus_status abacus_crossings_add_corners(abacus_crossings *crossings,

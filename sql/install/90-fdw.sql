@@ -17,7 +17,7 @@ RETURNS boolean
 AS 'MODULE_PATHNAME', 'abacus_sql_published'
 LANGUAGE C IMMUTABLE STRICT PARALLEL SAFE;
 COMMENT ON FUNCTION abacus_published(regclass) IS
-    'true; a constraint of a foreign table that abacus_publish() has made names the mesh by it';
+    'true; a constraint of a foreign table, or a condition of a view, that abacus_publish() has made names the mesh by it';
 
 CREATE FOREIGN DATA WRAPPER abacus HANDLER abacus_fdw_handler VALIDATOR abacus_fdw_validator;
 COMMENT ON FOREIGN DATA WRAPPER abacus IS 'cells and points of meshes as rows';
@@ -33,16 +33,18 @@ CREATE FUNCTION abacus_publish(
     schema text DEFAULT NULL,
     geometry boolean DEFAULT NULL,
     srid integer DEFAULT NULL,
-    z text DEFAULT NULL)
+    z text DEFAULT NULL,
+    fixed_edges text DEFAULT NULL,
+    breaklines text DEFAULT NULL)
 RETURNS regclass[]
 AS 'MODULE_PATHNAME', 'abacus_sql_publish'
 LANGUAGE C VOLATILE PARALLEL UNSAFE;
-COMMENT ON FUNCTION abacus_publish(regclass, text, text, text, boolean, integer, text) IS
-    'makes foreign tables of the cells and the points of a mesh. They are <mesh>_cells and <mesh>_points unless other names are given. Where PostGIS is installed they have geometries, with the attribute z as Z. Columns of attributes that are dropped later cannot be read any more. Returns the tables. Shapes: an array of the two tables. Errors: 42809 not a mesh, 42703 no such attribute, 55000 geometry without PostGIS, 22023 another srid than the mesh has, or z of a mesh in space, 42P07 a table of that name';
+COMMENT ON FUNCTION abacus_publish(regclass, text, text, text, boolean, integer, text, text, text) IS
+    'makes foreign tables of the cells and the points of a mesh, and in the plane views of its fixed edges and its lines. They are <mesh>_cells, <mesh>_points, <mesh>_fixed_edges and <mesh>_breaklines unless other names are given. Where PostGIS is installed they have geometries, with the attribute z as Z. Columns of attributes that are dropped later cannot be read any more. Views with these names that show the mesh stay as they are. Returns the tables and views. Shapes: an array of the two tables, in the plane of the two views as well. Errors: 42809 not a mesh, 42703 no such attribute, 55000 geometry without PostGIS, 22023 another srid than the mesh has, or z of a mesh in space, 42P07 a table of that name';
 
 CREATE FUNCTION abacus_unpublish(mesh regclass)
 RETURNS integer
 AS 'MODULE_PATHNAME', 'abacus_sql_unpublish'
 LANGUAGE C VOLATILE STRICT PARALLEL UNSAFE;
 COMMENT ON FUNCTION abacus_unpublish(regclass) IS
-    'drops the foreign tables of a mesh that the caller owns. Returns how many. Errors: 42809 not a mesh';
+    'drops the foreign tables and views of a mesh that abacus_publish() has made and that the caller owns. Returns how many. Errors: 42809 not a mesh';

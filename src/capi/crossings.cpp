@@ -49,10 +49,11 @@ abacus_status abacus_crossings_add(abacus_crossings *crossings, const abacus_lin
 abacus_status abacus_crossings_add_corners(abacus_crossings *crossings, const uint64_t *records,
                                            size_t count, abacus_error *error) {
     return abacus::guard(error, [&] {
-        for (const uint64_t *record = records; record != records + 4 * count; record += 4)
+        for (const uint64_t *record = records; record != records + 5 * count; record += 5)
             crossings->crossings.add_corner(
                 static_cast<std::int64_t>(record[0]), static_cast<std::int64_t>(record[1]),
-                finite_place(std::bit_cast<double>(record[2]), std::bit_cast<double>(record[3])));
+                finite_place(std::bit_cast<double>(record[2]), std::bit_cast<double>(record[3])),
+                static_cast<std::int64_t>(record[4]));
         return ABACUS_OK;
     });
 }

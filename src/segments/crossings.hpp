@@ -25,10 +25,11 @@ public:
         sweep_.add(segment);
     }
     /// A corner of a line that comes in corners.
-    void add_corner(std::int64_t line, std::int64_t position, const Point<2> &place) {
+    void add_corner(std::int64_t line, std::int64_t position, const Point<2> &place,
+                    std::int64_t part) {
         add_end(place);
         if (!corners_) corners_.emplace(host_, share_);
-        corners_->add(line, position, place);
+        corners_->add(line, position, place, part);
     }
 
     /// Ends adding; may be called again.

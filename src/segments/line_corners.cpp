@@ -8,6 +8,7 @@ namespace abacus {
 void LineCorners::each_segment(const std::function<void(const LineSegment &)> &visit) {
     corners_.finish();
     std::optional<LineSegment> last; // from the last corner on
+    std::uint64_t last_part = 0;
     while (const std::uint64_t *const record = corners_.next()) {
         LineSegment next{from_ordered_integer(record[0]), from_ordered_integer(record[1]), {}, {}};
         for (int i = 0; i < 2; ++i) next.a[i] = std::bit_cast<double>(record[2 + i]);
@@ -18,9 +19,10 @@ void LineCorners::each_segment(const std::function<void(const LineSegment &)> &v
                                 std::to_string(next.position) + " twice",
                             {}, "Number the corners of a line in their order.");
             last->b = next.a;
-            visit(*last);
+            if (last_part == record[4]) visit(*last);
         }
         last = next;
+        last_part = record[4];
     }
 }
 

@@ -12,8 +12,8 @@ SELECT is((SELECT count(*) FROM pg_attribute AS a, col_description(a.attrelid, a
 CREATE TABLE point AS SELECT 10 * x + y AS id, x, y, x * 0.5 AS h FROM generate_series(0, 3) AS x, generate_series(0, 2) AS y WHERE NOT (x = 1 AND y = 1);
 SELECT abacus_triangulate('field', 'TABLE point');
 SELECT abacus_constrain('field', 'VALUES (1, 1, 0), (1, 2, 30)');
-SELECT is((SELECT string_agg(col_description('field_lines'::regclass, n), ';' ORDER BY n) FROM generate_series(1, 6) AS n),
-          (SELECT string_agg(col_description('abacus_line_point'::regclass, n), ';' ORDER BY n) FROM generate_series(1, 6) AS n), 'columns of the table have them, too');
+SELECT is((SELECT string_agg(col_description('field_lines'::regclass, n), ';' ORDER BY n) FROM generate_series(1, 7) AS n),
+          (SELECT string_agg(col_description('abacus_line_point'::regclass, n), ';' ORDER BY n) FROM generate_series(1, 7) AS n), 'columns of the table have them, too');
 
 CREATE FUNCTION pg_temp.state() RETURNS text LANGUAGE sql AS $$
     SELECT concat((SELECT string_agg(l::text, ';') FROM abacus_lines('field') AS l), (SELECT string_agg(v::text, ';') FROM abacus_vertices('field') AS v),
@@ -148,13 +148,40 @@ CREATE TABLE cap_lines (i int);
 SELECT abacus_triangulate('cap', 'TABLE point');
 SELECT throws_ok($$ SELECT abacus_constrain('cap', 'VALUES (1, 1, 0), (1, 2, 30)') $$, '42P07', 'relation "cap_lines" already exists', 'the name is taken');
 
+-- published
+SELECT is(abacus_publish('field', geometry => false)::text, '{field_cells,field_points,field_fixed_edges,field_breaklines}', 'published');
+SELECT results_eq('TABLE field_breaklines', $$ SELECT * FROM abacus_lines('field') $$, 'lines as a table');
+SELECT results_eq('SELECT * FROM field_fixed_edges', $$ SELECT * FROM abacus_edges('field', fixed => true) $$, 'fixed edges as a table');
+SELECT is(abacus_publish('field', 'c', 'p', geometry => false)::text, '{c,p,field_fixed_edges,field_breaklines}', 'views are not made again');
+SELECT is(abacus_publish('field', 'd', 'q', geometry => false, fixed_edges => 'Edges', breaklines => 'barriers')::text, '{d,q,"\"Edges\"",barriers}', 'other names');
+SELECT throws_ok($$ SELECT abacus_publish('field', 'e', 'r', geometry => false, breaklines => 'point') $$, '42P07', 'relation "point" already exists', 'a name that is taken');
+SELECT abacus_create('later', 2);
+SELECT throws_ok($$ SELECT abacus_publish('later', 'e', 'r', geometry => false, breaklines => 'barriers') $$, '42P07', 'relation "barriers" already exists', 'even by a view of another mesh');
+SELECT is(abacus_publish('solid', geometry => false)::text, '{solid_cells,solid_points}', 'in space there are none');
+CREATE VIEW other AS SELECT * FROM abacus_lines('field'::regclass);
+SELECT is(abacus_unpublish('field'), 10, 'they go with the tables');
+SELECT has_view('other'::name);
+DROP VIEW other;
+SELECT abacus_triangulate('cap_line', 'TABLE point');
+SELECT abacus_publish('cap_line', geometry => false);
+SELECT is_empty('TABLE cap_line_breaklines', 'a mesh without lines');
+SELECT is_empty('TABLE cap_line_fixed_edges', 'which has no fixed edges');
+ALTER TABLE cap_line RENAME TO brim;
+SELECT abacus_constrain('brim', 'VALUES (1, 1, 0), (1, 2, 30)');
+SELECT is((SELECT count(*) FROM cap_line_breaklines), 2::bigint, 'lines that come later, of a mesh with another name');
+DROP TABLE brim;
+SELECT hasnt_view('cap_line_breaklines'::name);
+
 -- rights
+SELECT abacus_publish('field', geometry => false, fixed_edges => 'edges', breaklines => 'breaklines');
 CREATE ROLE surveyor;
 CREATE ROLE reader;
 GRANT ALL ON field, field_vertices, cap, cap_vertices TO surveyor;
 GRANT SELECT ON ALL TABLES IN SCHEMA public TO reader;
 DROP TABLE cap_lines;
+GRANT SELECT ON breaklines TO surveyor;
 SET ROLE surveyor;
+SELECT throws_ok('TABLE breaklines', '42501', 'permission denied for table field_lines', 'a view needs the privileges, too');
 SELECT throws_ok($$ SELECT abacus_constrain('cap', 'VALUES (1, 1, 0), (1, 2, 30)') $$, '42501', 'must be owner of mesh "cap" to give it its first lines');
 SELECT throws_ok($$ SELECT abacus_constrain('field', 'VALUES (50, 1, 0), (50, 2, 30)') $$, '42501', 'permission denied for table field_lines');
 SELECT throws_ok($$ SELECT * FROM abacus_lines('field') $$, '42501', 'permission denied for table field_lines');
@@ -167,6 +194,8 @@ SELECT is(abacus_constrain('field', 'VALUES (50, 1, 0), (50, 2, 30)'), 1::bigint
 SELECT is(abacus_unconstrain('field', 'VALUES (50)'), 1::bigint, 'the same');
 SET ROLE reader;
 SELECT isnt_empty($$ SELECT * FROM abacus_lines('field') $$, 'a reader sees them');
+SELECT isnt_empty('TABLE breaklines', 'in a view as well');
+SELECT isnt_empty('TABLE edges', 'and their edges');
 SELECT throws_ok($$ SELECT abacus_unconstrain('field', 'VALUES (1)') $$, '42501', NULL, 'but cannot change them');
 RESET ROLE;
 -- another owner's mesh, by a superuser: the tables have one owner

@@ -27,9 +27,10 @@ $$;
 -- A mesh with a slanted side of the hull, along which its triangles are long and fill little of their boxes.
 SELECT abacus_triangulate('slanted', 'SELECT id, x, CASE WHEN id % 2 = 0 THEN x * (y / 100) ^ 4 ELSE y END AS y, z AS height, id AS number
     FROM (SELECT id, greatest(x, y) AS x, least(x, y) AS y, z FROM pg_temp.points(1, 6000)) AS p');
-SELECT is(abacus_publish('slanted', srid => 25832, z => 'height')::text, '{slanted_cells,slanted_points}', 'published');
+SELECT is(abacus_publish('slanted', srid => 25832, z => 'height')::text, '{slanted_cells,slanted_points,slanted_fixed_edges,slanted_breaklines}', 'published');
 SELECT set_eq($$ SELECT f_table_name::text, f_geometry_column::text, coord_dimension, srid, type::text FROM geometry_columns WHERE f_table_name LIKE 'slanted%' $$,
-    $$ VALUES ('slanted_cells', 'geom', 3, 25832, 'POLYGON'), ('slanted_points', 'geom', 3, 25832, 'POINT') $$, 'geometry_columns has both');
+    $$ VALUES ('slanted_cells', 'geom', 3, 25832, 'POLYGON'), ('slanted_points', 'geom', 3, 25832, 'POINT'),
+       ('slanted_fixed_edges', 'geom', 2, 25832, 'LINESTRING'), ('slanted_breaklines', 'geom', 2, 25832, 'MULTILINESTRING') $$, 'geometry_columns has all');
 SELECT is(count(*), 0::bigint, 'points are what their columns say') FROM slanted_points
 WHERE NOT (ST_X(geom), ST_Y(geom), ST_Z(geom), ST_SRID(geom)) = (x, y, height, 25832);
 SELECT is(count(*), 0::bigint, 'cells are the polygons of their corners') FROM slanted_cells
@@ -120,7 +121,7 @@ SELECT abacus_set_srid('partial', 2154);
 SELECT abacus_publish('partial', 'own_cells', 'own_points');
 SELECT abacus_publish('partial', 'same_cells', 'same_points', srid => 2154);
 SELECT abacus_publish('partial', 'bare_cells', 'bare_points', geometry => false);
-SELECT set_eq($$ SELECT f_table_name::text, srid FROM geometry_columns WHERE f_table_name ~ '^(partial|own|same|bare|empty|ring)_' $$,
+SELECT set_eq($$ SELECT f_table_name::text, srid FROM geometry_columns WHERE f_table_name ~ '^(partial|own|same|bare|empty|ring)_(cells|points)$' $$,
     $$ VALUES ('partial_cells', 0), ('partial_points', 0), ('own_cells', 2154), ('own_points', 2154), ('same_cells', 2154), ('same_points', 2154),
         ('empty_cells', 0), ('empty_points', 0), ('ring_cells', 3857), ('ring_points', 3857) $$, 'columns have the SRID of the mesh, or one that is given');
 SELECT set_eq('SELECT ST_AsEWKT(geom) FROM own_points', $$ VALUES ('SRID=2154;POINT(0 0)'), ('SRID=2154;POINT(4 0)'), ('SRID=2154;POINT(0 4)') $$, 'points have it');

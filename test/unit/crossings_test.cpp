@@ -246,11 +246,14 @@ TEST_F(CrossingSegments, CornersOfLines) {
     MemoryHost store;
     abacus_error error{};
     abacus_crossings *crossings = nullptr;
-    std::vector<std::array<std::uint64_t, 4>> corners;
-    const auto corner = [&](std::int64_t line, std::int64_t position, double x, double y) {
+    std::vector<std::array<std::uint64_t, 5>> corners;
+    const auto corner = [&](std::int64_t line, std::int64_t position, double x, double y,
+                            std::uint64_t part = 0) {
         corners.push_back({static_cast<std::uint64_t>(line), static_cast<std::uint64_t>(position),
-                           std::bit_cast<std::uint64_t>(x), std::bit_cast<std::uint64_t>(y)});
+                           std::bit_cast<std::uint64_t>(x), std::bit_cast<std::uint64_t>(y), part});
     };
+    corner(7, 50, 0.5, 3, 1); // another part, which is not joined to the first
+    corner(7, 60, 0.5, 4, 1);
     corner(7, 30, 1, 3); // crosses itself
     corner(7, -5, 0, 0);
     corner(7, 20, 4, 2);

@@ -1,5 +1,5 @@
 /*
- * fn_publish.c: abacus_publish and abacus_unpublish, a mesh as foreign tables.
+ * fn_publish.c: abacus_publish and abacus_unpublish, a mesh as foreign tables, and its lines as views.
  */
 #include "postgres.h"
 
@@ -17,6 +17,7 @@
 
 #include "pg/base/sql_function.h"
 #include "pg/base/utility.h"
+#include "pg/fdw/line_views.h"
 #include "pg/fdw/published.h"
 #include "pg/mesh/mesh.h"
 #include "pg/mesh/reader.h"
@@ -34,7 +35,9 @@ enum
 	PUBLISH_SCHEMA,
 	PUBLISH_GEOMETRY,
 	PUBLISH_SRID,
-	PUBLISH_Z
+	PUBLISH_Z,
+	PUBLISH_FIXED_EDGES,
+	PUBLISH_BREAKLINES
 };
 
 /* What to publish, and how. */
@@ -244,7 +247,7 @@ geometry_arguments(FunctionCallInfo fcinfo, Publishing *publication)
 static Datum
 regclass_array(const Oid *tables, int count)
 {
-	Datum		elements[2];
+	Datum		elements[4];
 
 	Assert(count <= lengthof(elements));
 	for (int i = 0; i < count; i++)
@@ -276,7 +279,7 @@ read_mesh(Publishing *publication)
 
 /*
  * abacus_publish(mesh regclass, cells text, points text, schema text, geometry boolean,
- * srid integer, z text) -> regclass[]
+ * srid integer, z text, fixed_edges text, breaklines text) -> regclass[]
  */
 Datum
 abacus_sql_publish(PG_FUNCTION_ARGS)
@@ -285,7 +288,9 @@ abacus_sql_publish(PG_FUNCTION_ARGS)
 	const char *cells;
 	const char *points;
 	Reader	   *reader;
-	Oid			tables[2];
+	Oid			tables[4];
+	LineViews	views = {0};
+	int			count = 2;
 
 	if (PG_ARGISNULL(PUBLISH_MESH))
 		PG_RETURN_NULL();
@@ -300,8 +305,18 @@ abacus_sql_publish(PG_FUNCTION_ARGS)
 	points = table_name(fcinfo, PUBLISH_POINTS, publication.mesh, "points");
 	tables[0] = make_table(&publication, CONTENT_CELLS, cells);
 	tables[1] = make_table(&publication, CONTENT_POINTS, points);
+	if (publication.names.facts->form.dimension == 2)
+	{
+		views.mesh = publication.mesh;
+		views.schema = publication.schema;
+		views.functions = publication.functions;
+		views.has_geometry = publication.geometry != NULL;
+		views.srid = publication.srid;
+		tables[count++] = line_views_edges(&views, table_name(fcinfo, PUBLISH_FIXED_EDGES, views.mesh, "fixed_edges"));
+		tables[count++] = line_views_lines(&views, table_name(fcinfo, PUBLISH_BREAKLINES, views.mesh, "breaklines"));
+	}
 	host_destroy(reader->host);
-	PG_RETURN_DATUM(regclass_array(tables, lengthof(tables)));
+	PG_RETURN_DATUM(regclass_array(tables, count));
 }
 
 static char *
@@ -311,24 +326,37 @@ qualified_name(Oid table)
 									  get_rel_name(table));
 }
 
-/* abacus_unpublish(mesh regclass) -> integer: foreign tables of the caller that were dropped */
-Datum
-abacus_sql_unpublish(PG_FUNCTION_ARGS)
+/* Drops those of the relations that the caller owns; returns how many. */
+static int
+drop(const char *kind, List *relations)
 {
-	Oid			mesh = PG_GETARG_OID(0);
 	int			dropped = 0;
 	StringInfoData command;
 	ListCell   *cell;
 
-	/* as mesh_table_open(), but dropping the tables does not need the right to read the mesh */
-	if (mesh_of_table(mesh) != mesh)
-		table_close(mesh_table_open(mesh, MESH_READ), NoLock);
 	initStringInfo(&command);
-	foreach(cell, shown_tables(mesh))
+	foreach(cell, relations)
 		if (object_ownercheck(RelationRelationId, lfirst_oid(cell), GetUserId()))
-			appendStringInfo(&command, "%s%s", dropped++ == 0 ? "DROP FOREIGN TABLE " : ", ",
+			appendStringInfo(&command, "%s %s", dropped++ == 0 ? kind : ",",
 							 qualified_name(lfirst_oid(cell)));
 	if (dropped > 0)
 		utility_run(command.data);
-	PG_RETURN_INT32(dropped);
+	return dropped;
+}
+
+/*
+ * abacus_unpublish(mesh regclass) -> integer: foreign tables and views of the caller that were
+ * dropped
+ */
+Datum
+abacus_sql_unpublish(PG_FUNCTION_ARGS)
+{
+	Oid			mesh = PG_GETARG_OID(0);
+	int			views;
+
+	/* as mesh_table_open(), but dropping the tables does not need the right to read the mesh */
+	if (mesh_of_table(mesh) != mesh)
+		table_close(mesh_table_open(mesh, MESH_READ), NoLock);
+	views = drop("DROP VIEW", shown_views(mesh));
+	PG_RETURN_INT32(views + drop("DROP FOREIGN TABLE", shown_tables(mesh)));
 }

@@ -288,7 +288,7 @@ published_bind_restored(Relation mesh)
 {
 	ListCell   *cell;
 
-	foreach(cell, shown_tables(RelationGetRelid(mesh)))
+	foreach(cell, list_concat(shown_tables(RelationGetRelid(mesh)), shown_views(RelationGetRelid(mesh))))
 		if (object_ownercheck(RelationRelationId, lfirst_oid(cell), mesh->rd_rel->relowner))
 			shown_bind(RelationGetRelid(mesh), lfirst_oid(cell));
 }

@@ -14,7 +14,7 @@
 
 #define FDW_NAME "abacus"
 /* The function by which a constraint of the table names the mesh. */
-#define FDW_MESH_FUNCTION "abacus_published"
+#define FDW_MESH_FUNCTION SHOWN_MESH_FUNCTION
 
 /* Options of a table and of its columns. */
 #define OPTION_CONTENT "content"

@@ -38,7 +38,7 @@ line_crossings_add(LineCrossings *crossings, const uint64 *corners, size_t count
 }
 
 /*
- * Adds the rows of a query of line, position, x and y, which are not NULL. It reads what the active
+ * Adds the rows of a query of line, position, x, y and part, which are not NULL. It reads what the active
  * snapshot sees, or also what this command has changed. SPI is connected.
  */
 void
@@ -105,7 +105,7 @@ add_lines(LineCrossings *crossings, Writer *writer)
 	Oid			table = lines_table_require(mesh_pages(writer->host)->simplices.heap, MESH_WRITE);
 
 	SPI_connect();
-	line_crossings_add_query(crossings, psprintf("SELECT line, position, x, y FROM %s",
+	line_crossings_add_query(crossings, psprintf("SELECT line, position, x, y, coalesce(part, 0) FROM %s",
 												 lines_table_name(table)), true);
 	SPI_finish();
 }

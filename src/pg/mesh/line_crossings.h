@@ -23,6 +23,7 @@ enum
 	CORNER_POSITION,
 	CORNER_X,
 	CORNER_Y,
+	CORNER_PART,				/* 0 where a line has only one */
 	CORNER_COLUMNS
 };
 

@@ -2,7 +2,8 @@
  * lines_table.c: the table of a mesh's lines, found or made.
  *
  * A row is a point of a line: which line, its position there, the id that was given for it, its
- * place, and the kind of the line. The first lines of a mesh make the table. It stays when the last
+ * place, the kind of the line, and the part of the line: neighbours are joined if theirs is the same.
+ * It is NULL in lines of one part, where it takes no room. The first lines of a mesh make the table. It stays when the last
  * line goes.
  */
 #include "postgres.h"

@@ -9,8 +9,6 @@
  */
 #include "postgres.h"
 
-#include <math.h>
-
 #include "catalog/pg_type.h"
 #include "executor/spi.h"
 #include "utils/memutils.h"
@@ -54,12 +52,13 @@ mesh_of(const Host *host)
 static void
 prepare(MeshLines *lines)
 {
-	/* the point of the same line that comes before or after */
+	/* the point of the same line that comes before or after, if it is in the same part */
 	static const char *const half =
 		"SELECT p.line, o.x, o.y FROM %1$s AS p, LATERAL ("
-		"SELECT n.x, n.y FROM %1$s AS n WHERE n.line OPERATOR(pg_catalog.=) p.line AND "
+		"SELECT n.x, n.y, n.part FROM %1$s AS n WHERE n.line OPERATOR(pg_catalog.=) p.line AND "
 		"n.position OPERATOR(pg_catalog.%2$s) p.position ORDER BY n.position %3$s LIMIT 1) AS o "
-		"WHERE p.x OPERATOR(pg_catalog.=) $1 AND p.y OPERATOR(pg_catalog.=) $2";
+		"WHERE p.x OPERATOR(pg_catalog.=) $1 AND p.y OPERATOR(pg_catalog.=) $2 AND "
+		"COALESCE(o.part, 0) OPERATOR(pg_catalog.=) COALESCE(p.part, 0)";
 	Oid			types[] = {FLOAT8OID, FLOAT8OID};
 	char	   *table = lines_table_name(lines_table_require(mesh_of(lines->host), MESH_WRITE));
 	char	   *query = psprintf("%s UNION ALL %s", psprintf(half, table, "<", "DESC"),
@@ -154,9 +153,18 @@ mesh_lines_attach(Host *host, abacus_build *build)
 
 /* ---- All segments --------------------------------------------------------------- */
 
+/* The row before. */
+typedef struct LastPoint
+{
+	bool		is_known;
+	int64		line;
+	int64		part;
+	double		at[2];
+} LastPoint;
+
 /* Adds the segments between the rows of one fetch, and the row before it. */
 static void
-add_fetched(Host *host, abacus_segments *segments, double *ends, int64 *line, double *last)
+add_fetched(Host *host, abacus_segments *segments, double *ends, LastPoint *last)
 {
 	const SPITupleTable *rows = SPI_tuptable;
 	size_t		count = 0;
@@ -164,26 +172,30 @@ add_fetched(Host *host, abacus_segments *segments, double *ends, int64 *line, do
 
 	for (uint64 i = 0; i < SPI_processed; i++)
 	{
-		int64		of = DatumGetInt64(SPI_getbinval(rows->vals[i], rows->tupdesc, 1, &isnull));
-		double		at[2];
+		LastPoint	point = {.is_known = true};
+		Datum		part;
+
+		point.line = DatumGetInt64(SPI_getbinval(rows->vals[i], rows->tupdesc, 1, &isnull));
+		part = SPI_getbinval(rows->vals[i], rows->tupdesc, 4, &isnull);
+		point.part = isnull ? 0 : DatumGetInt64(part);
 
 		for (int axis = 0; axis < 2; axis++)
-			at[axis] = DatumGetFloat8(SPI_getbinval(rows->vals[i], rows->tupdesc, axis + 2, &isnull));
-		if (!isnan(last[0]) && of == *line)
+			point.at[axis] = DatumGetFloat8(SPI_getbinval(rows->vals[i], rows->tupdesc, axis + 2,
+														  &isnull));
+		if (last->is_known && point.line == last->line && point.part == last->part)
 		{
-			memcpy(&ends[4 * count], last, sizeof(at));
-			memcpy(&ends[4 * count + 2], at, sizeof(at));
+			memcpy(&ends[4 * count], last->at, sizeof(point.at));
+			memcpy(&ends[4 * count + 2], point.at, sizeof(point.at));
 			count++;
 		}
-		*line = of;
-		memcpy(last, at, sizeof(at));
+		*last = point;
 	}
 	host_run(host, abacus_segments_add, segments, ends, count);
 }
 
 /*
- * Adds the segments of lines: `query` returns line, x and y, in the order of the lines and of the
- * positions in each. SPI is connected.
+ * Adds the segments of lines: `query` returns line, x, y and part, in the order of the lines and of
+ * the positions in each. SPI is connected.
  */
 void
 mesh_lines_add(Host *host, abacus_segments *segments, const char *query)
@@ -191,15 +203,14 @@ mesh_lines_add(Host *host, abacus_segments *segments, const char *query)
 	SPIParseOpenOptions options = {.cursorOptions = CURSOR_OPT_NO_SCROLL};
 	Portal		portal = SPI_cursor_parse_open(NULL, query, &options);
 	double	   *ends = palloc(ROWS_A_FETCH * 4 * sizeof(double));
-	double		last[2] = {NAN, NAN};
-	int64		line = 0;
+	LastPoint	last = {false};
 
 	for (;;)
 	{
 		SPI_cursor_fetch(portal, true, ROWS_A_FETCH);
 		if (SPI_processed == 0)
 			break;
-		add_fetched(host, segments, ends, &line, last);
+		add_fetched(host, segments, ends, &last);
 		SPI_freetuptable(SPI_tuptable);
 	}
 	SPI_cursor_close(portal);
@@ -258,7 +269,7 @@ mesh_lines_fix_waiting(Writer *writer, abacus_build *build, abacus_segments **se
 	mesh_lines_open(writer, segments);
 	SPI_connect();
 	mesh_lines_add(host, *segments,
-				   psprintf("SELECT line, x, y FROM %s ORDER BY line, position",
+				   psprintf("SELECT line, x, y, part FROM %s ORDER BY line, position",
 							lines_table_name(lines_table_require(mesh_of(host), MESH_WRITE))));
 	SPI_finish();
 	mesh_lines_fix(writer, build, *segments);

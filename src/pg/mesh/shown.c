@@ -1,7 +1,7 @@
 /*
- * shown.c: the foreign tables that show a mesh.
+ * shown.c: the foreign tables and views that show a mesh.
  *
- * Each has a constraint that names the mesh and depends on it, even after a restore. The table
+ * Each table has a constraint, and each view a condition in its rule, that names the mesh and depends on it, even after a restore. The table
  * itself depends on the mesh, too, so that it is dropped with it. A dump does not carry that.
  */
 #include "postgres.h"
@@ -13,6 +13,9 @@
 #include "catalog/pg_class.h"
 #include "catalog/pg_constraint.h"
 #include "catalog/pg_depend.h"
+#include "catalog/pg_proc.h"
+#include "catalog/pg_rewrite.h"
+#include "commands/extension.h"
 #include "foreign/fdwapi.h"
 #include "foreign/foreign.h"
 #include "lib/stringinfo.h"
@@ -42,9 +45,41 @@ table_of_constraint(Oid constraint)
 	return table;
 }
 
-/* The foreign tables that show a mesh: their constraints depend on it. */
-List *
-shown_tables(Oid mesh)
+/* The view of ours with this rule, which calls our function; InvalidOid if there is none. */
+static Oid
+view_of_rule(Oid rule)
+{
+	Relation	depend = table_open(DependRelationId, AccessShareLock);
+	Oid			view = InvalidOid;
+	bool		is_ours = false;
+	ScanKeyData keys[2];
+	SysScanDesc scan;
+	HeapTuple	tuple;
+
+	ScanKeyInit(&keys[0], Anum_pg_depend_classid, BTEqualStrategyNumber, F_OIDEQ,
+				ObjectIdGetDatum(RewriteRelationId));
+	ScanKeyInit(&keys[1], Anum_pg_depend_objid, BTEqualStrategyNumber, F_OIDEQ,
+				ObjectIdGetDatum(rule));
+	scan = systable_beginscan(depend, DependDependerIndexId, true, NULL, 2, keys);
+	while (HeapTupleIsValid(tuple = systable_getnext(scan)))
+	{
+		Form_pg_depend entry = (Form_pg_depend) GETSTRUCT(tuple);
+
+		if (entry->refclassid == RelationRelationId && entry->deptype == DEPENDENCY_INTERNAL)
+			view = entry->refobjid;
+		if (entry->refclassid == ProcedureRelationId &&
+			strcmp(get_func_name(entry->refobjid), SHOWN_MESH_FUNCTION) == 0 &&
+			getExtensionOfObject(ProcedureRelationId, entry->refobjid) == get_extension_oid("abacus", true))
+			is_ours = true;
+	}
+	systable_endscan(scan);
+	table_close(depend, AccessShareLock);
+	return is_ours && OidIsValid(view) && get_rel_relkind(view) == RELKIND_VIEW ? view : InvalidOid;
+}
+
+/* The relations that show a mesh by objects of a class that depend on it. */
+static List *
+shown_by(Oid mesh, Oid class, Oid (*relation_of) (Oid object))
 {
 	Relation	depend = table_open(DependRelationId, AccessShareLock);
 	List	   *tables = NIL;
@@ -60,8 +95,7 @@ shown_tables(Oid mesh)
 	while (HeapTupleIsValid(tuple = systable_getnext(scan)))
 	{
 		Form_pg_depend entry = (Form_pg_depend) GETSTRUCT(tuple);
-		Oid			table = entry->classid == ConstraintRelationId
-			? table_of_constraint(entry->objid) : InvalidOid;
+		Oid			table = entry->classid == class ? relation_of(entry->objid) : InvalidOid;
 
 		if (OidIsValid(table))
 			tables = list_append_unique_oid(tables, table);
@@ -72,7 +106,21 @@ shown_tables(Oid mesh)
 	return tables;
 }
 
-/* Makes DROP of the mesh drop the table as well. */
+/* The foreign tables that show a mesh: their constraints depend on it. */
+List *
+shown_tables(Oid mesh)
+{
+	return shown_by(mesh, ConstraintRelationId, table_of_constraint);
+}
+
+/* The views that show its lines: their rules depend on it. */
+List *
+shown_views(Oid mesh)
+{
+	return shown_by(mesh, RewriteRelationId, view_of_rule);
+}
+
+/* Makes DROP of the mesh drop the table or view as well. */
 void
 shown_bind(Oid mesh, Oid table)
 {

@@ -71,7 +71,7 @@ insert_with_lines(Oid mesh, Source *points, Source *lines, const char *vertices,
 	change_read(change, points);
 	change_insert(change);
 	change_show(change);		/* the points of lines are found by a query */
-	new_lines_add(change, lines, vertices, "hard", EXISTING_ERROR);
+	new_lines_add(change, lines, vertices, "hard", EXISTING_ERROR, NULL);
 	abacus_header_copy(header, change->writer.header);
 	change_end(change);
 }

@@ -118,10 +118,11 @@ static void
 add_lines(EdgeRows *edges, const char *table)
 {
 	Portal		portal = SPI_cursor_open_with_args(
-		NULL, psprintf("SELECT line, x, y, kind = 'hard' FROM %s ORDER BY line, position", table),
+		NULL, psprintf("SELECT line, x, y, kind = 'hard', coalesce(part, 0) FROM %s ORDER BY line, position", table),
 		0, NULL, NULL, NULL, true, CURSOR_OPT_NO_SCROLL);
 	bool		any = false;
 	double		last[2];
+	int64		last_part = 0;
 
 	for (;;)
 	{
@@ -134,15 +135,17 @@ add_lines(EdgeRows *edges, const char *table)
 			TupleDesc	desc = SPI_tuptable->tupdesc;
 			bool		isnull;
 			int64		line = DatumGetInt64(SPI_getbinval(tuple, desc, 1, &isnull));
+			int64		part = DatumGetInt64(SPI_getbinval(tuple, desc, 5, &isnull));
 			double		at[2];
 
 			for (int axis = 0; axis < 2; axis++)
 				at[axis] = DatumGetFloat8(SPI_getbinval(tuple, desc, 2 + axis, &isnull));
 			edges->is_hard = DatumGetBool(SPI_getbinval(tuple, desc, 4, &isnull));
-			if (any && line == edges->line)
+			if (any && line == edges->line && part == last_part)
 				add_segment(edges, last, at);
 			any = true;
 			edges->line = line;
+			last_part = part;
 			memcpy(last, at, sizeof(at));
 		}
 		SPI_freetuptable(SPI_tuptable);
@@ -198,9 +201,9 @@ read_window(Reader *reader, const abacus_window *window, double max_edge)
 }
 
 /*
- * Looks for a fault of the lines of a sound mesh, which has so many fixed edges: a line without one
- * of its edges, fixed edges that belong to no line, lines that are not counted. Returns what is
- * wrong, or NULL.
+ * Looks for a fault of the lines of a sound mesh, which has so many fixed edges: values that no line
+ * has, a line without one of its edges, fixed edges that belong to no line, lines that are not
+ * counted. Returns what is wrong, or NULL.
  */
 char *
 fixed_edges_fault(Oid mesh, uint64 fixed)
@@ -223,6 +226,18 @@ fixed_edges_fault(Oid mesh, uint64 fixed)
 	edges.rows = named_rows_create(EDGES_ON_LINES, edge_columns, lengthof(edge_columns));
 	bound(&edges, &whole);
 	level = plain_names_begin(false);
+	query_first(psprintf("SELECT min(line) FROM %s WHERE x - x <> 0 OR y - y <> 0 OR "
+						 "kind NOT IN ('hard', 'soft')", table), counts, isnull, 1);
+	if (!isnull[0])
+	{
+		plain_names_end(level);
+		fault = MemoryContextStrdup(memory, psprintf("Line " INT64_FORMAT " has a coordinate that is not "
+													 "finite, or a kind that is not known.",
+													 DatumGetInt64(counts[0])));
+		named_rows_free(edges.rows);
+		SPI_finish();
+		return fault;
+	}
 	add_lines(&edges, table);
 	named_rows_register(edges.rows);
 	query_first(psprintf("SELECT (SELECT count(*) FROM (SELECT DISTINCT v0, v1, x0, y0, x1, y1 FROM "
@@ -243,10 +258,11 @@ fixed_edges_fault(Oid mesh, uint64 fixed)
 
 /*
  * Puts the fixed edges of a mesh, or of a window, into the result of a function: v0, v1, length,
- * lines, kind.
+ * lines, kind, and, if wanted, the coordinates of both ends in an array.
  */
 void
-fixed_edges_put(Reader *reader, const abacus_window *window, double max_edge, ReturnSetInfo *set)
+fixed_edges_put(Reader *reader, const abacus_window *window, double max_edge, bool with_ends,
+				ReturnSetInfo *set)
 {
 	const MeshPages *pages = mesh_pages(reader->host);
 	bool		is_part = window->kind != ABACUS_NO_WINDOW || max_edge > 0;
@@ -269,9 +285,9 @@ fixed_edges_put(Reader *reader, const abacus_window *window, double max_edge, Re
 		part = read_window(reader, window, max_edge);
 	query_into(set->setResult,
 			   psprintf("SELECT e.v0, e.v1, min(e.length), array_agg(DISTINCT e.line ORDER BY e.line), "
-						"CASE WHEN bool_or(e.is_hard) THEN 'hard' ELSE 'soft' END FROM " EDGES_ON_LINES
+						"CASE WHEN bool_or(e.is_hard) THEN 'hard' ELSE 'soft' END%s FROM " EDGES_ON_LINES
 						" AS e%s GROUP BY e.v0, e.v1, e.x0, e.y0, e.x1, e.y1 ORDER BY e.v0, e.v1",
-						is_part ? " JOIN " EDGES_IN_WINDOW " AS w USING (v0, v1, x0, y0, x1, y1)" : ""));
+						with_ends ? ", ARRAY[e.x0, e.y0, e.x1, e.y1]" : "", is_part ? " JOIN " EDGES_IN_WINDOW " AS w USING (v0, v1, x0, y0, x1, y1)" : ""));
 	plain_names_end(level);
 	named_rows_free(edges.rows);
 	if (part != NULL)

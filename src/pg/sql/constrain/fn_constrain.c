@@ -31,6 +31,7 @@ Datum
 abacus_sql_constrain(PG_FUNCTION_ARGS)
 {
 	const char *kind;
+	const char *z = NULL;
 	int			existing;
 	Source		source;
 	Change	   *change;
@@ -43,16 +44,12 @@ abacus_sql_constrain(PG_FUNCTION_ARGS)
 	kind = kinds[word_argument(fcinfo, 2, kinds, "kind", "Use 'hard' or 'soft'.")];
 	existing = word_argument(fcinfo, 3, existing_words, "existing", "Use 'error' or 'replace'.");
 	if (!PG_ARGISNULL(4))
-		ereport(ERROR,
-				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
-				 errmsg("z is for lines given as geometries"),
-				 errhint("Name a column of the query \"%s\", after x and y.",
-						 text_to_cstring(PG_GETARG_TEXT_PP(4)))));
+		z = text_to_cstring(PG_GETARG_TEXT_PP(4));
 	source_prepare(&source, text_to_cstring(PG_GETARG_TEXT_PP(1)));
 	change = change_begin(PG_GETARG_OID(0), "abacus_constrain()");
 	new_lines_check_mesh(change);
 	lines = new_lines_add(change, &source, new_lines_vertices(fcinfo->flinfo->fn_oid, PG_GETARG_OID(0)),
-						  kind, existing);
+						  kind, existing, z);
 	if (lines > 0)
 		change_end(change);
 	else

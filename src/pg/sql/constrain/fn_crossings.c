@@ -40,14 +40,17 @@ enum
 /* So many columns name points of the mesh: line, position, point. */
 #define POINT_COLUMNS 3
 
-static const char *const corner_columns[CORNER_COLUMNS] = {"line", "position", "x", "y"};
+/* So many give corners: line, position, x, y; each is of the only part of its line. */
+#define PLACE_COLUMNS 4
+
+static const char *const corner_columns[PLACE_COLUMNS] = {"line", "position", "x", "y"};
 
 /* The rows of a query, as corners of lines. */
 typedef struct Corners
 {
 	TupleDesc	desc;
-	int			at[CORNER_COLUMNS]; /* their columns, from 1 on */
-	Oid			type[CORNER_COLUMNS];
+	int			at[PLACE_COLUMNS];	/* their columns, from 1 on */
+	Oid			type[PLACE_COLUMNS];
 	uint64		row;			/* rows seen */
 } Corners;
 
@@ -69,17 +72,17 @@ corners_begin(Corners *corners, TupleDesc desc)
 {
 	corners->desc = desc;
 	corners->row = 0;
-	if (desc->natts < CORNER_COLUMNS)
+	if (desc->natts < PLACE_COLUMNS)
 		ereport(ERROR,
 				(errcode(ERRCODE_DATATYPE_MISMATCH),
 				 errmsg("source query returns %d columns, but lines take at least %d", desc->natts,
 						POINT_COLUMNS),
 				 errdetail("Columns are matched by position: line, position, point, or line, position, "
 						   "x, y, or line, position, point, x, y.")));
-	for (int i = 0; i < CORNER_COLUMNS; i++)
+	for (int i = 0; i < PLACE_COLUMNS; i++)
 	{
 		bool		is_id = i < CORNER_X;
-		int			column = i + 1 + (!is_id && desc->natts > CORNER_COLUMNS);
+		int			column = i + 1 + (!is_id && desc->natts > PLACE_COLUMNS);
 		Oid			type = TupleDescAttr(desc, column - 1)->atttypid;
 
 		corners->at[i] = column;
@@ -124,7 +127,7 @@ static void
 pack_corner(Corners *corners, HeapTuple row, uint64 *record)
 {
 	corners->row++;
-	for (int i = 0; i < CORNER_COLUMNS; i++)
+	for (int i = 0; i < PLACE_COLUMNS; i++)
 	{
 		bool		isnull;
 		Datum		value = heap_getattr(row, corners->at[i], corners->desc, &isnull);
@@ -151,6 +154,7 @@ pack_corner(Corners *corners, HeapTuple row, uint64 *record)
 					 errhint("Leave such rows out with a WHERE clause.")));
 		memcpy(&record[i], &number, sizeof(number));
 	}
+	record[CORNER_PART] = 0;
 }
 
 /* Notes the ids of lines, a few times each. */
@@ -205,14 +209,14 @@ read_points(Source *source, LineCrossings *crossings, const char *vertices)
 {
 	abacus_header *header = palloc0(sizeof(abacus_header));
 	NewLines	lines = {.vertices = vertices, .names = abacus_names_of(header)};
-	NamedRows  *rows = line_rows_read(source, lines.names, &lines.shape);
+	NamedRows  *rows = line_rows_read(source, lines.names, NULL, &lines.shape);
 	NamedRows  *points;
 	int			level = plain_names_begin(false);
 
 	named_rows_register(rows);
 	line_points_check(&lines);
 	points = line_points_find(&lines);
-	line_crossings_add_query(crossings, "SELECT line, position, x, y FROM " LINE_POINTS, false);
+	line_crossings_add_query(crossings, "SELECT line, position, x, y, coalesce(part, 0) FROM " LINE_POINTS, false);
 	named_rows_free(points);
 	plain_names_end(level);
 	return rows;
@@ -225,7 +229,7 @@ add_present(LineCrossings *crossings, const char *table, const NamedRows *ids)
 	int			level = plain_names_begin(false);
 
 	line_crossings_add_query(crossings,
-							 psprintf("SELECT l.line, l.position, l.x, l.y FROM %s AS l WHERE NOT EXISTS "
+							 psprintf("SELECT l.line, l.position, l.x, l.y, coalesce(l.part, 0) FROM %s AS l WHERE NOT EXISTS "
 									  "(SELECT FROM %s AS g WHERE g.line = l.line)", table, ids->name),
 							 false);
 	plain_names_end(level);

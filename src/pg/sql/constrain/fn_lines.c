@@ -1,5 +1,6 @@
 /*
- * fn_lines.c: abacus_lines, the lines of a mesh as they were given.
+ * fn_lines.c: abacus_lines, the lines of a mesh as they were given, and _abacus_fixed_edges, what a
+ * view of abacus_publish() shows of the edges on them.
  */
 #include "postgres.h"
 
@@ -11,9 +12,11 @@
 #include "pg/mesh/mesh_pages.h"
 #include "pg/mesh/reader.h"
 #include "pg/port/port.h"
+#include "pg/sql/constrain/fixed_edges.h"
 #include "pg/sql/constrain/named_rows.h"
 
 SQL_FUNCTION(abacus_sql_lines);
+SQL_FUNCTION(abacus_sql_fixed_edges);
 
 /* The table of the lines of a mesh, as a name in SQL; NULL if it has no lines. */
 static char *
@@ -29,7 +32,7 @@ table_of(Oid mesh)
 	return name;
 }
 
-/* abacus_lines(mesh regclass) -> line, position, point, x, y, kind */
+/* abacus_lines(mesh regclass) -> line, position, point, x, y, kind, part */
 Datum
 abacus_sql_lines(PG_FUNCTION_ARGS)
 {
@@ -43,9 +46,24 @@ abacus_sql_lines(PG_FUNCTION_ARGS)
 		PG_RETURN_NULL();
 	SPI_connect();
 	level = plain_names_begin(false);
-	query_into(set->setResult, psprintf("SELECT line, position, point, x, y, kind FROM %s "
+	query_into(set->setResult, psprintf("SELECT line, position, point, x, y, kind, part FROM %s "
 										"ORDER BY line, position", table));
 	plain_names_end(level);
 	SPI_finish();
+	PG_RETURN_NULL();
+}
+
+/* _abacus_fixed_edges(mesh regclass) -> v0, v1, length, lines, kind, path */
+Datum
+abacus_sql_fixed_edges(PG_FUNCTION_ARGS)
+{
+	abacus_window whole = {.kind = ABACUS_NO_WINDOW};
+	Reader	   *reader;
+
+	InitMaterializedSRF(fcinfo, 0);
+	reader = reader_open(PG_GETARG_OID(0), CurrentMemoryContext);
+	fixed_edges_put(reader, &whole, 0, true, (ReturnSetInfo *) fcinfo->resultinfo);
+	host_release(reader->host);
+	host_destroy(reader->host);
 	PG_RETURN_NULL();
 }

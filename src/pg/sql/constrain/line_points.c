@@ -36,9 +36,31 @@ place(const Datum *values)
 
 /* ---- Checks of the rows alone ------------------------------------------------------ */
 
+/* A part of a line that has one point, or whose points do not follow one another. */
 static void
-check_positions(void)
+check_parts(void)
 {
+	Datum		values[3];
+	bool		isnull[3];
+
+	if (!query_first("SELECT line, part, min(position) FROM (SELECT line, position, coalesce(part, 0) AS part, "
+					 "lag(coalesce(part, 0)) OVER (PARTITION BY line ORDER BY position) AS before "
+					 "FROM " LINE_ROWS ") AS s GROUP BY line, part "
+					 "HAVING count(*) = 1 OR count(*) FILTER (WHERE part IS DISTINCT FROM before) > 1 "
+					 "ORDER BY line, min(position) LIMIT 1", values, isnull, 3))
+		return;
+	ereport(ERROR,
+			(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+			 errmsg("part " INT64_FORMAT " of line " INT64_FORMAT " has one point alone, or begins twice",
+					DatumGetInt64(values[1]), DatumGetInt64(values[0])),
+			 errdetail("Its first point is at position " INT64_FORMAT ".", DatumGetInt64(values[2])),
+			 errhint("Number the points of each part in sequence.")));
+}
+
+static void
+check_positions(const NewLines *lines)
+{
+	bool		is_drawn = lines->shape.has_geometries;
 	Datum		values[2];
 	bool		isnull[2];
 
@@ -46,9 +68,11 @@ check_positions(void)
 					"HAVING count(*) > 1 ORDER BY line, position LIMIT 1", values, isnull, 2))
 		ereport(ERROR,
 				(errcode(ERRCODE_UNIQUE_VIOLATION),
-				 errmsg("line " INT64_FORMAT " has position " INT64_FORMAT " twice",
-						DatumGetInt64(values[0]), DatumGetInt64(values[1])),
-				 errhint("Number the points of each line in their order, for instance with row_number().")));
+				 is_drawn ? errmsg("line " INT64_FORMAT " has two geometries", DatumGetInt64(values[0]))
+				 : errmsg("line " INT64_FORMAT " has position " INT64_FORMAT " twice",
+						  DatumGetInt64(values[0]), DatumGetInt64(values[1])),
+				 is_drawn ? errhint("Make them one with ST_Collect(geometry), or give each an id of its own.")
+				 : errhint("Number the points of each line in their order, for instance with row_number().")));
 	if (query_first("SELECT line FROM " LINE_ROWS " GROUP BY line HAVING count(*) = 1 ORDER BY line LIMIT 1",
 					values, isnull, 1))
 		ereport(ERROR,
@@ -92,7 +116,9 @@ check_ids(void)
 void
 line_points_check(const NewLines *lines)
 {
-	check_positions();
+	check_positions(lines);
+	if (lines->shape.has_parts)
+		check_parts();
 	if (lines->shape.has_places)
 		check_ids();
 }
@@ -254,7 +280,7 @@ points_by_place(const NewLines *lines)
 		" SELECT x, y, '" INT64_FORMAT "'::bigint + row_number() OVER (ORDER BY line, position), true "
 		" FROM known WHERE id IS NULL) "
 		"SELECT g.line, g.position, coalesce(g.point, n.id), g.x, g.y, g.attributes, "
-		" CASE WHEN g.point IS NULL THEN n.is_new ELSE f.id IS NULL END "
+		" CASE WHEN g.point IS NULL THEN n.is_new ELSE f.id IS NULL END, g.part "
 		"FROM " LINE_ROWS " AS g "
 		"LEFT JOIN numbered AS n ON g.point IS NULL AND n.x = g.x AND n.y = g.y "
 		"LEFT JOIN (SELECT DISTINCT id FROM " FOUND " WHERE by_id) AS f ON f.id = g.point",
@@ -268,28 +294,31 @@ points_query(const NewLines *lines)
 	if (lines->shape.has_nameless)
 		return points_by_place(lines);
 	return lines->shape.has_places
-		? "SELECT g.line, g.position, g.point, g.x, g.y, g.attributes, f.id IS NULL FROM " LINE_ROWS " AS g "
+		? "SELECT g.line, g.position, g.point, g.x, g.y, g.attributes, f.id IS NULL, g.part FROM " LINE_ROWS " AS g "
 		"LEFT JOIN (SELECT DISTINCT id FROM " FOUND " WHERE by_id) AS f ON f.id = g.point"
-		: "SELECT g.line, g.position, g.point, f.x, f.y, NULL::float8[], false FROM " LINE_ROWS " AS g "
+		: "SELECT g.line, g.position, g.point, f.x, f.y, NULL::float8[], false, g.part FROM " LINE_ROWS " AS g "
 		"JOIN (SELECT DISTINCT id, x, y FROM " FOUND ") AS f ON f.id = g.point";
 }
 
 static void
-check_lengths(void)
+check_lengths(const NewLines *lines)
 {
 	Datum		values[5];
 	bool		isnull[5];
 
-	if (query_first("SELECT x, y, line, before, position FROM (SELECT x, y, line, position, lag(x) OVER w AS x0, "
-					"lag(y) OVER w AS y0, lag(position) OVER w AS before FROM " LINE_POINTS
-					" WINDOW w AS (PARTITION BY line ORDER BY position)) AS s WHERE x = x0 AND y = y0 "
+	if (query_first("SELECT x, y, line, before, position FROM (SELECT x, y, line, position, coalesce(part, 0) AS part, "
+					"lag(x) OVER w AS x0, lag(y) OVER w AS y0, lag(position) OVER w AS before, "
+					"lag(coalesce(part, 0)) OVER w AS part0 FROM " LINE_POINTS
+					" WINDOW w AS (PARTITION BY line ORDER BY position)) AS s "
+					"WHERE x = x0 AND y = y0 AND part = part0 "
 					"ORDER BY line, position LIMIT 1", values, isnull, 5))
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
 				 errmsg("line " INT64_FORMAT " has a segment of length zero", DatumGetInt64(values[2])),
 				 errdetail("Its positions " INT64_FORMAT " and " INT64_FORMAT " are both at %s.",
 						   DatumGetInt64(values[3]), DatumGetInt64(values[4]), place(values)),
-				 errhint("Leave one of the two points out.")));
+				 lines->shape.has_geometries ? errhint("Leave it out with ST_RemoveRepeatedPoints(geometry).")
+				 : errhint("Leave one of the two points out.")));
 }
 
 /* Finds the points of the lines in the mesh, or chooses new ids for them: LINE_POINTS. */
@@ -298,7 +327,7 @@ line_points_find(const NewLines *lines)
 {
 	static const NamedColumn columns[] = {
 		{"line", INT8OID}, {"position", INT8OID}, {"point", INT8OID}, {"x", FLOAT8OID},
-		{"y", FLOAT8OID}, {"attributes", FLOAT8ARRAYOID}, {"is_new", BOOLOID}
+		{"y", FLOAT8OID}, {"attributes", FLOAT8ARRAYOID}, {"is_new", BOOLOID}, {"part", INT8OID}
 	};
 	NamedRows  *found = find(lines);
 	NamedRows  *points;
@@ -312,6 +341,6 @@ line_points_find(const NewLines *lines)
 		check_attributes(lines);
 	points = named_rows_of_query(LINE_POINTS, columns, lengthof(columns), points_query(lines));
 	named_rows_free(found);
-	check_lengths();
+	check_lengths(lines);
 	return points;
 }

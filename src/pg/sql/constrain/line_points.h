@@ -7,7 +7,7 @@
 #include "abacus/mesh_header.h"
 #include "pg/sql/constrain/line_rows.h"
 
-/* Rows with a name: line, position, point, x, y, attributes, is_new. */
+/* Rows with a name: line, position, point, x, y, attributes, is_new, part. */
 #define LINE_POINTS "abacus_points"
 
 /* Lines being added to a mesh. */
@@ -15,6 +15,7 @@ typedef struct NewLines
 {
 	const char *vertices;		/* a call of abacus_vertices() for the mesh, in SQL */
 	abacus_names names;
+	const char *z;				/* attribute for the Z of geometries, or NULL */
 	LineShape	shape;
 } NewLines;
 

@@ -1,7 +1,6 @@
 /*
  * line_rows.c: reads the rows of a query that gives lines: line, position and point id, perhaps
- * with x, y and attributes. Another shape of rows, geometries for instance, would be one more
- * function that puts the same rows.
+ * with x, y, attributes and the part; or line and geometry (line_geometries.c).
  */
 #include "postgres.h"
 
@@ -14,9 +13,12 @@
 #include "utils/memutils.h"
 
 #include "pg/base/float_array.h"
+#include "pg/mesh/header.h"
+#include "pg/sql/constrain/line_geometries.h"
 #include "pg/sql/constrain/line_rows.h"
 
 #define ROWS_A_FETCH 1024
+#define PART_COLUMN "part"
 
 static const char *const column_names[] = {"line", "position", "point id", "x", "y"};
 
@@ -31,6 +33,8 @@ typedef struct LineReader
 	uint32		count;			/* attributes of the mesh */
 	uint64		row;			/* for messages */
 	bool		any_nameless;	/* so far */
+	int			part;			/* its column; -1: none */
+	LineGeometries *geometries; /* NULL: rows of points */
 } LineReader;
 
 /* ---- Columns --------------------------------------------------------------------- */
@@ -49,29 +53,48 @@ is_number(Oid type)
 
 /* Whether the column may be a bare NULL, which has the type text. */
 static bool
-may_be_null(int column)
+may_be_null(const LineReader *reader, int column)
 {
-	return column == LINE_ROW_POINT || column > LINE_ROW_Y;
+	return column == LINE_ROW_POINT || column == reader->part || column > LINE_ROW_Y;
+}
+
+/* What a column must hold, for messages. */
+static char *
+wanted(const LineReader *reader, int column)
+{
+	if (column < reader->ids)
+		return psprintf("the %s, which is an integer", column_names[column]);
+	if (column == reader->part)
+		return pstrdup("the part, which is an integer");
+	if (column <= LINE_ROW_Y)
+		return psprintf("%s, which is a number", column_names[column]);
+	return psprintf("the attribute \"%s\", which is a number",
+					NameStr(TupleDescAttr(reader->desc, column)->attname));
+}
+
+static bool
+has_attributes(const LineReader *reader)
+{
+	return reader->desc->natts - (reader->part >= 0) > LINE_ROW_Y + 1;
 }
 
 static void
 check_types(const LineReader *reader)
 {
-	for (int i = 0; i < reader->desc->natts; i++)
+	int			columns = reader->geometries != NULL ? reader->ids : reader->desc->natts;
+
+	for (int i = 0; i < columns; i++)
 	{
 		Oid			type = reader->types[i];
 
-		if ((i < reader->ids ? is_integer(type) : is_number(type)) ||
-			(type == TEXTOID && may_be_null(i) && reader->desc->natts > reader->ids))
+		if ((i < reader->ids || i == reader->part ? is_integer(type) : is_number(type)) ||
+			(type == TEXTOID && may_be_null(reader, i) && reader->desc->natts > reader->ids))
 			continue;
 		ereport(ERROR,
 				(errcode(ERRCODE_DATATYPE_MISMATCH),
 				 errmsg("column %d of the query of lines has type %s", i + 1,
 						format_type_be(TupleDescAttr(reader->desc, i)->atttypid)),
-				 i < reader->ids ? errdetail("It is the %s, which is an integer.", column_names[i])
-				 : i <= LINE_ROW_Y ? errdetail("It is %s, which is a number.", column_names[i])
-				 : errdetail("It is the attribute \"%s\", which is a number.",
-							 NameStr(TupleDescAttr(reader->desc, i)->attname)),
+				 errdetail("It is %s.", wanted(reader, i)),
 				 errhint("Cast the column in the query.")));
 	}
 }
@@ -91,6 +114,20 @@ find_attribute(abacus_names names, const char *name)
 	return 0;					/* not reached */
 }
 
+/* Finds the column after the first ones that is named part, unless it is an attribute. */
+static void
+find_part(LineReader *reader, abacus_names names)
+{
+	int			first = reader->desc->natts == LINE_ROW_POINT + 2 ? LINE_ROW_POINT + 1 : LINE_ROW_Y + 1;
+
+	reader->part = -1;
+	for (int i = first; i < reader->desc->natts && reader->part < 0; i++)
+		if (strcmp(NameStr(TupleDescAttr(reader->desc, i)->attname), PART_COLUMN) == 0)
+			reader->part = i;
+	if (first > LINE_ROW_Y && header_attribute(names, PART_COLUMN) >= 0)
+		reader->part = -1;
+}
+
 static void
 find_attributes(LineReader *reader, abacus_names names)
 {
@@ -102,9 +139,11 @@ find_attributes(LineReader *reader, abacus_names names)
 	{
 		const char *name = NameStr(TupleDescAttr(reader->desc, i)->attname);
 
+		if (i == reader->part)
+			continue;
 		reader->attributes[i] = find_attribute(names, name);
 		for (int j = first; j < i; j++)
-			if (reader->attributes[j] == reader->attributes[i])
+			if (j != reader->part && reader->attributes[j] == reader->attributes[i])
 				ereport(ERROR,
 						(errcode(ERRCODE_DUPLICATE_COLUMN),
 						 errmsg("the query of lines returns attribute \"%s\" twice", name)));
@@ -230,11 +269,23 @@ read_place(const LineReader *reader, HeapTuple tuple, Datum *values, bool *isnul
 }
 
 static void
+read_part(const LineReader *reader, HeapTuple tuple, Datum *values, bool *isnull)
+{
+	Datum		value = SPI_getbinval(tuple, reader->desc, reader->part + 1, &isnull[LINE_ROW_PART]);
+
+	if (isnull[LINE_ROW_PART])
+		return;
+	if (!is_integer(reader->types[reader->part]))
+		refuse_text(reader, reader->part);
+	values[LINE_ROW_PART] = Int64GetDatum(to_integer(reader->types[reader->part], value));
+}
+
+static void
 read_attributes(const LineReader *reader, HeapTuple tuple, Datum *values, bool *isnull)
 {
 	double		numbers[ABACUS_MAX_ATTRIBUTES];
 
-	isnull[LINE_ROW_ATTRIBUTES] = reader->desc->natts <= LINE_ROW_Y + 1;
+	isnull[LINE_ROW_ATTRIBUTES] = !has_attributes(reader);
 	if (isnull[LINE_ROW_ATTRIBUTES])
 		return;
 	for (uint32 i = 0; i < reader->count; i++)
@@ -244,6 +295,8 @@ read_attributes(const LineReader *reader, HeapTuple tuple, Datum *values, bool *
 		bool		none;
 		Datum		value = SPI_getbinval(tuple, reader->desc, i + 1, &none);
 
+		if (i == reader->part)
+			continue;
 		if (!none && !is_number(reader->types[i]))
 			refuse_text(reader, i);
 		if (!none)
@@ -254,7 +307,34 @@ read_attributes(const LineReader *reader, HeapTuple tuple, Datum *values, bool *
 
 /* ---- Rows ------------------------------------------------------------------------ */
 
-/* Reads all rows; rows of ids alone have the first column only. */
+/* Reads a row: a point of a line, or the id of a line and perhaps its geometry. */
+static void
+read_row(LineReader *reader, HeapTuple tuple, bool has_places)
+{
+	Datum		values[LINE_ROW_COLUMNS];
+	bool		isnull[LINE_ROW_COLUMNS];
+
+	memset(isnull, true, sizeof(isnull));
+	reader->row++;
+	read_ids(reader, tuple, has_places, values, isnull);
+	if (reader->geometries != NULL)
+	{
+		bool		none;
+		Datum		geometry = SPI_getbinval(tuple, reader->desc, reader->ids + 1, &none);
+
+		line_geometries_put(reader->geometries, DatumGetInt64(values[LINE_ROW_LINE]), geometry, none);
+		return;
+	}
+	if (has_places)
+	{
+		read_place(reader, tuple, values, isnull);
+		read_attributes(reader, tuple, values, isnull);
+	}
+	if (reader->part >= 0)
+		read_part(reader, tuple, values, isnull);
+	named_rows_put(reader->rows, values, isnull);
+}
+
 static void
 read_rows(LineReader *reader, Source *source, bool has_places)
 {
@@ -268,20 +348,9 @@ read_rows(LineReader *reader, Source *source, bool has_places)
 			break;
 		for (uint64 i = 0; i < SPI_processed; i++)
 		{
-			HeapTuple	tuple = SPI_tuptable->vals[i];
-			Datum		values[LINE_ROW_COLUMNS];
-			bool		isnull[LINE_ROW_COLUMNS];
 			MemoryContext old = MemoryContextSwitchTo(row);
 
-			memset(isnull, true, sizeof(isnull));
-			reader->row++;
-			read_ids(reader, tuple, has_places, values, isnull);
-			if (has_places)
-			{
-				read_place(reader, tuple, values, isnull);
-				read_attributes(reader, tuple, values, isnull);
-			}
-			named_rows_put(reader->rows, values, isnull);
+			read_row(reader, SPI_tuptable->vals[i], has_places);
 			MemoryContextSwitchTo(old);
 			MemoryContextReset(row);
 		}
@@ -291,28 +360,65 @@ read_rows(LineReader *reader, Source *source, bool has_places)
 	MemoryContextDelete(row);
 }
 
-/* Reads the rows of a prepared query that gives lines for a mesh with these names. */
+/* Reads a query of lines and geometries. */
+static void
+read_geometries(LineReader *reader, Source *source, abacus_names names, const char *z,
+				LineShape *shape)
+{
+	reader->ids = LINE_ROW_LINE + 1;
+	reader->geometries = line_geometries_begin(reader->rows, reader->types[1], names, z);
+	check_types(reader);
+	read_rows(reader, source, true);
+	line_geometries_end(reader->geometries, shape);
+}
+
+/* Reads a query of points of lines. */
+static void
+read_points(LineReader *reader, Source *source, abacus_names names, LineShape *shape)
+{
+	int			columns = reader->desc->natts;
+
+	find_part(reader, names);
+	if (columns < 3 || (columns == 4 && reader->part < 0))
+		refuse_count(columns, "Rows of lines have three columns, or five and more.",
+					 "Return line, position and the id of a point; x, y and attributes may follow, and "
+					 "a column named part. With PostGIS, return line and a geometry.");
+	shape->has_places = columns > reader->ids + 1;
+	shape->has_attributes = shape->has_places && has_attributes(reader);
+	shape->has_parts = reader->part >= 0;
+	check_types(reader);
+	if (shape->has_places)
+		find_attributes(reader, names);
+	read_rows(reader, source, shape->has_places);
+	shape->has_nameless = reader->any_nameless;
+}
+
+/*
+ * Reads the rows of a prepared query that gives lines for a mesh with these names. The attribute `z`
+ * gets the Z of geometries, unless it is NULL.
+ */
 NamedRows *
-line_rows_read(Source *source, abacus_names names, LineShape *shape)
+line_rows_read(Source *source, abacus_names names, const char *z, LineShape *shape)
 {
 	static const NamedColumn columns[] = {
 		{"line", INT8OID}, {"position", INT8OID}, {"point", INT8OID}, {"x", FLOAT8OID},
-		{"y", FLOAT8OID}, {"attributes", FLOAT8ARRAYOID}
+		{"y", FLOAT8OID}, {"attributes", FLOAT8ARRAYOID}, {"part", INT8OID}
 	};
 	LineReader	reader = {.ids = LINE_ROW_POINT + 1};
 
 	open_query(&reader, source);
-	if (reader.desc->natts < 3 || reader.desc->natts == 4)
-		refuse_count(reader.desc->natts, "Rows of lines have three columns, or five and more.",
-					 "Return line, position and the id of a point; x, y and attributes may follow.");
-	shape->has_places = reader.desc->natts > reader.ids;
-	shape->has_attributes = reader.desc->natts > LINE_ROW_Y + 1;
-	check_types(&reader);
-	if (shape->has_places)
-		find_attributes(&reader, names);
+	memset(shape, 0, sizeof(*shape));
+	shape->srid = -1;
 	reader.rows = named_rows_create(LINE_ROWS, columns, lengthof(columns));
-	read_rows(&reader, source, shape->has_places);
-	shape->has_nameless = reader.any_nameless;
+	if (reader.desc->natts == 2 && geometry_is_type(reader.types[1]))
+		read_geometries(&reader, source, names, z, shape);
+	else if (z != NULL)
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+				 errmsg("z is for lines given as geometries"),
+				 errhint("Name a column of the query \"%s\", after x and y.", z)));
+	else
+		read_points(&reader, source, names, shape);
 	return reader.rows;
 }
 
@@ -321,7 +427,7 @@ NamedRows *
 line_ids_read(Source *source)
 {
 	static const NamedColumn columns[] = {{"line", INT8OID}};
-	LineReader	reader = {.ids = 1};
+	LineReader	reader = {.ids = 1, .part = -1};
 
 	open_query(&reader, source);
 	if (reader.desc->natts != 1)

@@ -9,7 +9,7 @@
 #include "pg/input/source.h"
 #include "pg/sql/constrain/named_rows.h"
 
-/* The columns of the rows of lines; the last is NULL if the query has no attributes. */
+/* The columns of the rows of lines; those after y are NULL if the query does not have them. */
 enum
 {
 	LINE_ROW_LINE,
@@ -18,6 +18,7 @@ enum
 	LINE_ROW_X,
 	LINE_ROW_Y,
 	LINE_ROW_ATTRIBUTES,		/* in the order of the mesh; NaN is none */
+	LINE_ROW_PART,				/* neighbours in a line are joined if they have the same; NULL is 0 */
 	LINE_ROW_COLUMNS
 };
 
@@ -27,12 +28,16 @@ typedef struct LineShape
 	bool		has_places;		/* x and y after the ids */
 	bool		has_nameless;	/* rows whose id is NULL */
 	bool		has_attributes;
+	bool		has_parts;		/* a column for them, or a geometry with several */
+	bool		has_geometries; /* instead of rows of points */
+	int32		srid;			/* of the geometries; -1: there are none */
 } LineShape;
 
 #define LINE_ROWS "abacus_given"
 #define LINE_IDS "abacus_lines_given"
 
-extern NamedRows *line_rows_read(Source *source, abacus_names names, LineShape *shape);
+extern NamedRows *line_rows_read(Source *source, abacus_names names, const char *z,
+								 LineShape *shape);
 extern NamedRows *line_ids_read(Source *source);
 
 #endif

@@ -72,7 +72,7 @@ new_lines_delete(Change *change, const char *table, const char *ids, int64 *soft
 		return 0;
 	mesh_lines_open(&change->writer, &change->freed);
 	mesh_lines_add(change->writer.host, change->freed,
-				   psprintf("SELECT l.line, l.x, l.y FROM %s AS l WHERE l.line IN (%s) "
+				   psprintf("SELECT l.line, l.x, l.y, l.part FROM %s AS l WHERE l.line IN (%s) "
 							"ORDER BY l.line, l.position", table, ids));
 	query_run(psprintf("DELETE FROM %s AS l WHERE l.line IN (%s)", table, ids));
 	return (uint64) DatumGetInt64(counts[0]);
@@ -225,7 +225,7 @@ change_edges(Change *change)
 		return;
 	mesh_lines_open(&change->writer, &change->fixed);
 	mesh_lines_add(change->writer.host, change->fixed,
-				   "SELECT line, x, y FROM " LINE_POINTS " ORDER BY line, position");
+				   "SELECT line, x, y, part FROM " LINE_POINTS " ORDER BY line, position");
 	change_fix(change);
 }
 
@@ -252,8 +252,8 @@ add_lines(Change *change, const NewLines *lines, const char *kind, ExistingLines
 		refuse_existing(table);
 	else
 		replaced = new_lines_delete(change, table, "SELECT line FROM " LINE_ROWS, &soft);
-	query_run(psprintf("INSERT INTO %s (line, position, point, x, y, kind) SELECT line, position, point, x, y, "
-					   "'%s' FROM " LINE_POINTS " ORDER BY line, position", table, kind));
+	query_run(psprintf("INSERT INTO %s (line, position, point, x, y, kind, part) SELECT line, position, point, "
+					   "x, y, '%s', part FROM " LINE_POINTS " ORDER BY line, position", table, kind));
 	if (is_new)
 		lines_table_index(mesh_of(change));
 	change_lines(change, DatumGetInt64(count) - (int64) replaced,
@@ -275,15 +275,16 @@ new_lines_vertices(Oid function, Oid mesh)
 }
 
 /*
- * Reads the rows of a prepared query, and adds its lines; returns how many they are. Without any,
+ * Reads the rows of a prepared query, and adds its lines; returns how many they are. `z` names the
+ * attribute for the Z of geometries, or is NULL. Without any,
  * nothing has changed.
  */
 uint64
 new_lines_add(Change *change, Source *source, const char *vertices, const char *kind,
-			  ExistingLines existing)
+			  ExistingLines existing, const char *z)
 {
-	NewLines	lines = {.vertices = vertices, .names = abacus_names_of(change->writer.header)};
-	NamedRows  *rows = line_rows_read(source, lines.names, &lines.shape);
+	NewLines	lines = {.vertices = vertices, .names = abacus_names_of(change->writer.header),.z = z};
+	NamedRows  *rows = line_rows_read(source, lines.names, z, &lines.shape);
 	uint64		count = 0;
 
 	if (rows->count > 0)
@@ -293,6 +294,9 @@ new_lines_add(Change *change, Source *source, const char *vertices, const char *
 	}
 	named_rows_free(rows);
 	if (count > 0)
+	{
+		change_take_srid(change, lines.shape.srid);
 		tell_of_waiting(change);
+	}
 	return count;
 }

@@ -16,7 +16,7 @@ typedef enum ExistingLines
 extern void new_lines_check_mesh(const Change *change);
 extern char *new_lines_vertices(Oid function, Oid mesh);
 extern uint64 new_lines_add(Change *change, Source *source, const char *vertices, const char *kind,
-							ExistingLines existing);
+							ExistingLines existing, const char *z);
 extern uint64 new_lines_delete(Change *change, const char *table, const char *ids,
 							   int64 *soft);
 

@@ -165,7 +165,7 @@ fixed_edges(FunctionCallInfo fcinfo, WindowForm form)
 	reader = reader_open(PG_GETARG_OID(0), CurrentMemoryContext);
 	max_edge = window_max_edge(fcinfo, 3);
 	window_arguments(fcinfo, 1, form, &reader->header.facts.form, &window);
-	fixed_edges_put(reader, &window, max_edge, (ReturnSetInfo *) fcinfo->resultinfo);
+	fixed_edges_put(reader, &window, max_edge, false, (ReturnSetInfo *) fcinfo->resultinfo);
 	host_release(reader->host);
 	host_destroy(reader->host);
 	PG_RETURN_NULL();
