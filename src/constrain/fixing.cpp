@@ -56,7 +56,6 @@ Point<2> Fixing::fix_edge(const Way &way, const Point<2> &from, const Point<2> &
         cache_.set_fixed(side, true);
         cache_.mark_dirty(link_simplex(side));
     }
-    ++fixed_;
     return end;
 }
 
@@ -157,8 +156,6 @@ Point<2> Fixing::force_edge(const Way &way, const Point<2> &b) {
                                                {left_sides_.data(), left_sides_.size()});
     patch_.join(left, right, true);
     patch_.finish();
-    ++fixed_;
-    ++forced_;
     return next;
 }
 

@@ -24,10 +24,6 @@ public:
     /// (crossing) if the segment crosses a fixed edge, before it changes anything there.
     void fix(const Point<2> &a, const Point<2> &b);
 
-    /// Edges fixed so far that were not, and those that were not edges of the mesh before.
-    std::uint64_t fixed() const { return fixed_; }
-    std::uint64_t forced() const { return forced_; }
-
 private:
     /// Of a side of the segment: its vertices from one end to the other, and the edges between
     /// them, from the triangles that are crossed.
@@ -71,7 +67,6 @@ private:
     Bank left_, right_;
     Arena<Patch::Side> left_sides_, right_sides_;
     Arena<Dangling> dangling_;
-    std::uint64_t fixed_ = 0, forced_ = 0;
 };
 
 } // namespace abacus

@@ -32,7 +32,6 @@ Point<2> Freeing::free_edge(const Point<2> &from, const Point<2> &b) {
         cache_.set_fixed(side, false);
         cache_.mark_dirty(link_simplex(side));
     }
-    ++freed_;
     add(inner);
     restore();
     return end;

@@ -15,8 +15,6 @@ public:
     /// Frees the edges on the segment from a to b over which the host has no line.
     void free(const Point<2> &a, const Point<2> &b);
 
-    std::uint64_t freed() const { return freed_; }
-
 private:
     /// An edge that may fail. Its simplex may have gone since, and its slot may be used again.
     struct Edge {
@@ -36,7 +34,6 @@ private:
     Cache<2> &cache_;
     LinesOver over_;
     Arena<Edge> to_test_;
-    std::uint64_t freed_ = 0;
 };
 
 } // namespace abacus
