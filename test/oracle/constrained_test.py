@@ -131,7 +131,7 @@ class Constrained(unittest.TestCase):
 
     def test_random(self):
         random = numpy.random.default_rng(1)
-        for count, part in ((60, 2), (3000, 3), (100000 if LARGE else 15000, 40)):
+        for count, part in ((60, 2), (3000, 3), (40000 if LARGE else 15000, 40)):
             points = unique(random.random((count, 2)))
             self.compare(f"{count} random points", points, self.delaunay_lines(points, part, random), USUAL if count == 3000 else None)
 
@@ -144,7 +144,7 @@ class Constrained(unittest.TestCase):
     def test_grid(self):
         """Cocircular points, with lines through many of them exactly: along axes, diagonals, and steps of two and one."""
         random = numpy.random.default_rng(3)
-        side = 301 if LARGE else 61
+        side = 121 if LARGE else 61
         points = numpy.array([(x, y) for x in range(side) for y in range(side)], dtype=float)
         at = lambda x, y: x * side + y
         end = side - 1
@@ -174,7 +174,7 @@ class Constrained(unittest.TestCase):
     def test_roads(self):
         """A network: streets that meet in crossroads, with points beside them, on them and bends; dead ends."""
         random = numpy.random.default_rng(4)
-        side = 30 if LARGE else 12
+        side = 20 if LARGE else 12
         nodes = numpy.array([(x, y) for x in range(side) for y in range(side)]) * 100 + random.integers(-30, 31, (side * side, 2))
         bends, lines, points = [], [], [tuple(p) for p in nodes.astype(float)]
         for x in range(side):
@@ -214,7 +214,7 @@ class Constrained(unittest.TestCase):
     def test_coast(self):
         """A closed line of 5,000 vertices, that winds without crossing itself: radii of a star in order of the angle."""
         random = numpy.random.default_rng(5)
-        n = 50000 if LARGE else 5000
+        n = 15000 if LARGE else 5000
         angle = numpy.arange(n) * 2 * math.pi / n
         walk = numpy.cumsum(random.normal(size=n))
         radius = 1 + 0.3 * numpy.sin(3 * angle) + 0.2 * (walk - walk[-1] * numpy.arange(n) / n) / numpy.abs(walk).max()
