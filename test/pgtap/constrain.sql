@@ -216,6 +216,18 @@ SELECT throws_ok($$ SELECT * FROM abacus_lines('cap') $$, '42P01', 'mesh "cap" h
 SELECT throws_ok($$ SELECT * FROM abacus_edges('cap', fixed => true) $$, '42P01', 'mesh "cap" has lines, but no table of lines');
 SELECT lives_ok($$ DROP TABLE cap $$, 'it can be dropped');
 
+-- a rule that keeps rows out; no id is left
+SELECT abacus_triangulate('ruled', 'TABLE point');
+SELECT abacus_constrain('ruled', 'VALUES (1, 1, 0), (1, 2, 30)');
+CREATE RULE nothing AS ON INSERT TO ruled_lines DO INSTEAD NOTHING;
+SELECT throws_ok($$ SELECT abacus_constrain('ruled', 'VALUES (2, 1, 0), (2, 2, 2)') $$, '55000',
+                 'a rule or a trigger of the table of lines keeps lines out');
+DROP RULE nothing ON ruled_lines;
+SELECT abacus_insert('ruled', 'VALUES (9223372036854775807, 1.5, 1.5, 0)');
+SELECT throws_ok($$ SELECT abacus_constrain('ruled', 'VALUES (2, 1, 0, 0, 0), (2, 2, NULL, 0.5, 0.75)') $$, '54000',
+                 'no id is left above the greatest one, 9223372036854775807');
+SELECT is_empty($$ SELECT * FROM abacus_check('ruled') $$, 'nothing has changed');
+
 -- a temporary mesh; operators of a hostile search path are not used
 SELECT abacus_triangulate('pg_temp.short', 'TABLE point');
 SELECT is(abacus_constrain('short', 'VALUES (1, 1, 0), (1, 2, 30)'), 1::bigint, 'a temporary mesh');

@@ -252,11 +252,20 @@ static int64
 greatest_id(const NewLines *lines)
 {
 	Datum		value;
+	Datum		count;
 	bool		isnull;
 
 	query_first(psprintf("SELECT greatest((SELECT max(v.id) FROM %s AS v), (SELECT max(g.point) FROM " LINE_ROWS
 						 " AS g))", lines->vertices), &value, &isnull, 1);
-	return isnull ? 0 : DatumGetInt64(value);
+	if (isnull)
+		return 0;
+	query_first("SELECT count(*) FROM " LINE_ROWS " WHERE point IS NULL", &count, &isnull, 1);
+	if (DatumGetInt64(value) > PG_INT64_MAX - DatumGetInt64(count))
+		ereport(ERROR,
+				(errcode(ERRCODE_PROGRAM_LIMIT_EXCEEDED),
+				 errmsg("no id is left above the greatest one, " INT64_FORMAT, DatumGetInt64(value)),
+				 errhint("Give the new points of the lines ids.")));
+	return DatumGetInt64(value);
 }
 
 /*

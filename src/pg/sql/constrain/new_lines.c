@@ -252,8 +252,14 @@ add_lines(Change *change, const NewLines *lines, const char *kind, ExistingLines
 		refuse_existing(table);
 	else
 		replaced = new_lines_delete(change, table, "SELECT line FROM " LINE_ROWS, &soft);
-	query_run(psprintf("INSERT INTO %s (line, position, point, x, y, kind, part) SELECT line, position, point, "
-					   "x, y, '%s', part FROM " LINE_POINTS " ORDER BY line, position", table, kind));
+	if (query_run(psprintf("INSERT INTO %s (line, position, point, x, y, kind, part) SELECT line, position, point, "
+						   "x, y, '%s', part FROM " LINE_POINTS " ORDER BY line, position", table, kind))
+		!= points->count)
+		ereport(ERROR,
+				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
+				 errmsg("a rule or a trigger of the table of lines keeps lines out"),
+				 errdetail("The table is %s.", table),
+				 errhint("Drop it. The table belongs to the mesh.")));
 	if (is_new)
 		lines_table_index(mesh_of(change));
 	change_lines(change, DatumGetInt64(count) - (int64) replaced,
