@@ -77,7 +77,7 @@ INSERT INTO wanted VALUES
     ('abacus_tracked', '', 'trigger', 'v', false, 'u'),
     ('abacus_untrack', 'mesh regclass, "table" regclass', 'void', 'v', true, 'u'),
     ('abacus_triangulate', 'mesh regclass', 'bigint', 'v', true, 'u'),
-    ('abacus_triangulate', 'mesh text, query text, attributes text[] DEFAULT NULL::text[], dimension integer DEFAULT 2, lower double precision[] DEFAULT NULL::double precision[], upper double precision[] DEFAULT NULL::double precision[]', 'bigint', 'v', false, 'u'),
+    ('abacus_triangulate', 'mesh text, query text, attributes text[] DEFAULT NULL::text[], dimension integer DEFAULT 2, lower double precision[] DEFAULT NULL::double precision[], upper double precision[] DEFAULT NULL::double precision[], lines text DEFAULT NULL::text', 'bigint', 'v', false, 'u'),
     ('abacus_locate', 'mesh regclass, x double precision, y double precision', 'abacus_simplex', 's', true, 's'),
     ('abacus_locate', 'mesh regclass, x double precision, y double precision, z double precision', 'abacus_simplex', 's', true, 's'),
     ('abacus_locate', 'mesh regclass, query text, OUT id bigint, OUT code bigint, OUT v0 bigint, OUT v1 bigint, OUT v2 bigint, OUT v3 bigint, OUT labels double precision[]', 'SETOF record', 'v', true, 'u'),
