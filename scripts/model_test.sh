@@ -18,11 +18,16 @@ if [[ ! -x $oracle || -z ${ABACUS_BUILT:-} ]]; then
     build_release oracle_compare
     install_extension
 fi
-cluster_start model_test
+case ${1:-} in
+lines) name=model_lines ;;
+*) name=model_test ;;
+esac
+folder=$ABACUS_BUILD/$name
+cluster_start "$name"
 run_psql -c "CREATE EXTENSION abacus"
-mkdir -p "$ABACUS_BUILD/model_test"
-if [[ ${1:-} == lines ]]; then
-    scripts/model_lines.py ${ABACUS_SEED:+-s "$ABACUS_SEED"} --folder "$ABACUS_BUILD/model_test" "${@:2}"
-    exit
+mkdir -p "$folder"
+if [[ $name == model_lines ]]; then
+    scripts/model_lines.py ${ABACUS_SEED:+-s "$ABACUS_SEED"} --folder "$folder" "${@:2}"
+else
+    scripts/model_test.py ${ABACUS_SEED:+-s "$ABACUS_SEED"} --oracle "$oracle" --folder "$folder" "$@"
 fi
-scripts/model_test.py ${ABACUS_SEED:+-s "$ABACUS_SEED"} --oracle "$oracle" --folder "$ABACUS_BUILD/model_test" "$@"
