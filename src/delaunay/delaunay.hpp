@@ -66,7 +66,9 @@ public:
             from = no_handle;
         if (from == no_handle) from = cache_.start(code, p);
         if (from == no_handle) throw_corrupted("The mesh has no simplices.");
-        return walk_.to(p, from, static_cast<std::uint64_t>(simplices_ + ghosts_));
+        return walk_.to(
+            p, from,
+            longest_walk(static_cast<std::uint64_t>(simplices_ + ghosts_), is_constrained));
     }
 
     /// The simplex's corner at p, or -1.

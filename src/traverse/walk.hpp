@@ -2,15 +2,22 @@
 // a Triangulation", 2002; dissertation §4.11.3): from simplex to simplex across a facet
 // that separates it from the target, never back through the one it came in by, the first
 // facet tried drawn at random. In a Delaunay triangulation no such walk visits a simplex
-// twice. In a constrained one it may go round in circles for a while; each time it passes a
-// simplex with two facets to choose from, it leaves the circle with a chance of one half. So a
-// walk with a great many more steps than the mesh has simplices shows that the mesh is damaged.
-// Other meshes may have a boundary that is not the hull, where a walk ends; within() tells.
+// twice. So a walk with more steps than the mesh has simplices shows that the mesh is damaged. In a
+// constrained one it may go round in circles for a while; each time it passes a simplex with two
+// facets to choose from, it leaves the circle with a chance of one half. There only a great many
+// more steps show damage. Other meshes may have a boundary that is not the hull, where a walk ends;
+// within() tells.
 #pragma once
 
 #include "traverse/separator.hpp"
 
 namespace abacus {
+
+/// The most steps that a walk may take in a sound mesh with so many simplices, ghosts included.
+constexpr std::uint64_t longest_walk(std::uint64_t simplices, bool is_constrained) {
+    constexpr std::uint64_t rounds = 64, few = 4096;
+    return is_constrained ? rounds * simplices + few : simplices;
+}
 
 template <int D, Topology<D> Mesh> class Walk {
 public:
@@ -34,10 +41,9 @@ public:
 
     /// The simplex that contains p in its closure; a ghost whose hull facet has p
     /// strictly beyond it if p lies outside the hull. The mesh fills its convex hull.
-    /// `simplices`: of the mesh, ghosts included.
-    Handle to(const Point<D> &p, Handle from, std::uint64_t simplices) {
-        constexpr std::uint64_t rounds = 64, few = 4096;
-        const Handle h = within(p, from, rounds * simplices + few);
+    /// `longest`: longest_walk() of it.
+    Handle to(const Point<D> &p, Handle from, std::uint64_t longest) {
+        const Handle h = within(p, from, longest);
         if (h == no_handle) throw_corrupted("A walk in the mesh does not end.");
         return h;
     }

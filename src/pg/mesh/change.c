@@ -281,8 +281,8 @@ change_clear(Change *change)
 }
 
 /*
- * The mesh has so many more lines, or fewer, in its table, and so many more soft ones. To be called before their edges are fixed,
- * and after they are freed.
+ * The mesh has so many more lines, or fewer, in its table, and so many more soft ones. To be called
+ * before their edges are fixed, and after they are freed.
  */
 void
 change_lines(Change *change, int64 more, int64 soft)

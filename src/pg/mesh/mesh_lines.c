@@ -1,8 +1,8 @@
 /*
  * mesh_lines.c: the lines of a mesh that is being changed, for the core.
  *
- * The core knows which edges are fixed, but not by which lines. It asks for the segments that end at
- * a place when it frees edges or deletes a vertex. The answer comes from the table of lines, by its
+ * The core knows which edges are fixed, but not by which lines. When it frees edges or deletes a
+ * vertex, it asks which segments end at a place. The answer comes from the table of lines, by its
  * index on places, and from there by the primary key to the neighbours in each line. The writer has
  * locked the header, so nobody else changes the lines meanwhile. What this transaction has changed
  * in them is visible.

@@ -61,7 +61,8 @@ template <int D> Handle Reader<D>::start(const Point<D> &p, std::uint64_t code) 
 
 template <int D> Handle Reader<D>::find(const Point<D> &p, std::uint64_t code) {
     const Handle from = start(p, code);
-    return from == no_handle ? no_handle : last_ = walk_.to(p, from, size_);
+    return from == no_handle ? no_handle
+                             : last_ = walk_.to(p, from, longest_walk(size_, !is_delaunay()));
 }
 
 // ---- Meshes that are not convex ------------------------------------------------------

@@ -54,18 +54,6 @@ typedef struct Corners
 	uint64		row;			/* rows seen */
 } Corners;
 
-static bool
-is_integer(Oid type)
-{
-	return type == INT2OID || type == INT4OID || type == INT8OID;
-}
-
-static bool
-is_number(Oid type)
-{
-	return is_integer(type) || type == FLOAT4OID || type == FLOAT8OID || type == NUMERICOID;
-}
-
 /* Finds the columns, and checks their types. */
 static void
 corners_begin(Corners *corners, TupleDesc desc)
@@ -87,7 +75,7 @@ corners_begin(Corners *corners, TupleDesc desc)
 
 		corners->at[i] = column;
 		corners->type[i] = getBaseType(type);
-		if (is_id ? is_integer(corners->type[i]) : is_number(corners->type[i]))
+		if (is_id ? line_rows_is_integer(corners->type[i]) : line_rows_is_number(corners->type[i]))
 			continue;
 		ereport(ERROR,
 				(errcode(ERRCODE_DATATYPE_MISMATCH),
@@ -96,29 +84,6 @@ corners_begin(Corners *corners, TupleDesc desc)
 				 is_id ? errdetail("Lines and positions must be smallint, integer or bigint.")
 				 : errdetail("Coordinates must be double precision, real, numeric or integers."),
 				 errhint("Cast the column in the query.")));
-	}
-}
-
-static int64
-to_integer(Oid type, Datum value)
-{
-	return type == INT8OID ? DatumGetInt64(value)
-		: type == INT4OID ? DatumGetInt32(value) : DatumGetInt16(value);
-}
-
-static double
-to_double(Oid type, Datum value)
-{
-	switch (type)
-	{
-		case FLOAT8OID:
-			return DatumGetFloat8(value);
-		case FLOAT4OID:
-			return DatumGetFloat4(value);
-		case NUMERICOID:
-			return DatumGetFloat8(DirectFunctionCall1(numeric_float8_no_overflow, value));
-		default:
-			return (double) to_integer(type, value);
 	}
 }
 
@@ -141,10 +106,10 @@ pack_corner(Corners *corners, HeapTuple row, uint64 *record)
 					 errhint("Leave such rows out with a WHERE clause.")));
 		if (i < CORNER_X)
 		{
-			record[i] = (uint64) to_integer(corners->type[i], value);
+			record[i] = (uint64) line_rows_integer(corners->type[i], value);
 			continue;
 		}
-		number = to_double(corners->type[i], value);
+		number = line_rows_number(corners->type[i], value);
 		if (!isfinite(number))
 			ereport(ERROR,
 					(errcode(ERRCODE_INVALID_PARAMETER_VALUE),

@@ -39,16 +39,16 @@ typedef struct LineReader
 
 /* ---- Columns --------------------------------------------------------------------- */
 
-static bool
-is_integer(Oid type)
+bool
+line_rows_is_integer(Oid type)
 {
 	return type == INT2OID || type == INT4OID || type == INT8OID;
 }
 
-static bool
-is_number(Oid type)
+bool
+line_rows_is_number(Oid type)
 {
-	return is_integer(type) || type == FLOAT4OID || type == FLOAT8OID || type == NUMERICOID;
+	return line_rows_is_integer(type) || type == FLOAT4OID || type == FLOAT8OID || type == NUMERICOID;
 }
 
 /* Whether the column may be a bare NULL, which has the type text. */
@@ -87,7 +87,7 @@ check_types(const LineReader *reader)
 	{
 		Oid			type = reader->types[i];
 
-		if ((i < reader->ids || i == reader->part ? is_integer(type) : is_number(type)) ||
+		if ((i < reader->ids || i == reader->part ? line_rows_is_integer(type) : line_rows_is_number(type)) ||
 			(type == TEXTOID && may_be_null(reader, i) && reader->desc->natts > reader->ids))
 			continue;
 		ereport(ERROR,
@@ -172,15 +172,17 @@ open_query(LineReader *reader, Source *source)
 
 /* ---- Values ---------------------------------------------------------------------- */
 
-static int64
-to_integer(Oid type, Datum value)
+/* A value of an integer type. */
+int64
+line_rows_integer(Oid type, Datum value)
 {
 	return type == INT8OID ? DatumGetInt64(value)
 		: type == INT4OID ? DatumGetInt32(value) : DatumGetInt16(value);
 }
 
-static double
-to_number(Oid type, Datum value)
+/* A value of a type of numbers. */
+double
+line_rows_number(Oid type, Datum value)
 {
 	switch (type)
 	{
@@ -191,7 +193,7 @@ to_number(Oid type, Datum value)
 		case NUMERICOID:
 			return DatumGetFloat8(DirectFunctionCall1(numeric_float8_no_overflow, value));
 		default:
-			return (double) to_integer(type, value);
+			return (double) line_rows_integer(type, value);
 	}
 }
 
@@ -240,9 +242,9 @@ read_ids(LineReader *reader, HeapTuple tuple, bool has_places, Datum *values, bo
 			reader->any_nameless = true;
 			continue;
 		}
-		if (!is_integer(reader->types[i]))
+		if (!line_rows_is_integer(reader->types[i]))
 			refuse_text(reader, i);
-		values[i] = Int64GetDatum(to_integer(reader->types[i], values[i]));
+		values[i] = Int64GetDatum(line_rows_integer(reader->types[i], values[i]));
 	}
 }
 
@@ -256,7 +258,7 @@ read_place(const LineReader *reader, HeapTuple tuple, Datum *values, bool *isnul
 
 		if (isnull[i])
 			refuse_null(reader, values, i);
-		number = to_number(reader->types[i], value);
+		number = line_rows_number(reader->types[i], value);
 		if (!isfinite(number))
 			ereport(ERROR,
 					(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
@@ -275,9 +277,9 @@ read_part(const LineReader *reader, HeapTuple tuple, Datum *values, bool *isnull
 
 	if (isnull[LINE_ROW_PART])
 		return;
-	if (!is_integer(reader->types[reader->part]))
+	if (!line_rows_is_integer(reader->types[reader->part]))
 		refuse_text(reader, reader->part);
-	values[LINE_ROW_PART] = Int64GetDatum(to_integer(reader->types[reader->part], value));
+	values[LINE_ROW_PART] = Int64GetDatum(line_rows_integer(reader->types[reader->part], value));
 }
 
 static void
@@ -297,10 +299,10 @@ read_attributes(const LineReader *reader, HeapTuple tuple, Datum *values, bool *
 
 		if (i == reader->part)
 			continue;
-		if (!none && !is_number(reader->types[i]))
+		if (!none && !line_rows_is_number(reader->types[i]))
 			refuse_text(reader, i);
 		if (!none)
-			numbers[reader->attributes[i]] = to_number(reader->types[i], value);
+			numbers[reader->attributes[i]] = line_rows_number(reader->types[i], value);
 	}
 	values[LINE_ROW_ATTRIBUTES] = attribute_array(numbers, (int) reader->count);
 }

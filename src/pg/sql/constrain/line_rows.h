@@ -39,5 +39,9 @@ typedef struct LineShape
 extern NamedRows *line_rows_read(Source *source, abacus_names names, const char *z,
 								 LineShape *shape);
 extern NamedRows *line_ids_read(Source *source);
+extern bool line_rows_is_integer(Oid type);
+extern bool line_rows_is_number(Oid type);
+extern int64 line_rows_integer(Oid type, Datum value);
+extern double line_rows_number(Oid type, Datum value);
 
 #endif
