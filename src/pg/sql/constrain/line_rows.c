@@ -39,12 +39,14 @@ typedef struct LineReader
 
 /* ---- Columns --------------------------------------------------------------------- */
 
+/* Which types ids and positions may have. */
 bool
 line_rows_is_integer(Oid type)
 {
 	return type == INT2OID || type == INT4OID || type == INT8OID;
 }
 
+/* Which types coordinates and attributes may have. */
 bool
 line_rows_is_number(Oid type)
 {
