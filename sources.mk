@@ -101,6 +101,7 @@ CORE.delaunay += src/delaunay/refill.cpp
 CORE.delaunay += src/delaunay/removal.cpp
 CORE.delaunay += src/delaunay/star.cpp
 
+CORE.change += src/constrain/edge_heirs.cpp
 CORE.change += src/constrain/fixing.cpp
 CORE.change += src/constrain/freeing.cpp
 CORE.change += src/change/build.cpp

@@ -37,7 +37,7 @@ public:
           StoredPages *stored = nullptr)
         : work_(host, facts, cache_bytes), labels_(work_, stored), gathering_(work_),
           inserting_(work_, gathering_), deleting_(work_, gathering_, inserting_),
-          rekeying_(work_, inserting_, labels_), constraining_(work_) {}
+          rekeying_(work_, inserting_, labels_), constraining_(work_, gathering_) {}
 
     /// From now on logs the simplices that are created and removed.
     void log_to(SimplexChanges<D> &changes) { work_.log_to(changes); }

@@ -17,9 +17,19 @@ std::uint64_t Constraining<D>::each(Segments &segments, Change change) {
     work_.report(ABACUS_PHASE_INSERTING, 0, all);
     segments.each([&](const Segments::Segment &segment) {
         change(segment);
-        if (++done % segments_at_once == 0) work_.report(ABACUS_PHASE_INSERTING, done, all);
+        if (++done % segments_at_once == 0)
+            work_.report(ABACUS_PHASE_INSERTING, done - gathering_.size(), all);
     });
     return all;
+}
+
+template <int D>
+void Constraining<D>::take(const std::uint64_t *records, const std::uint64_t *, std::size_t n) {
+    if constexpr (D == 2) {
+        Fixing fixing(work_.core->mesh);
+        for (; n > 0; --n, records += segment_words)
+            fixing.fix(record_point<2>(records), record_far_end(records));
+    }
 }
 
 template <int D> std::uint64_t Constraining<D>::fix(Segments &segments) {
@@ -27,8 +37,18 @@ template <int D> std::uint64_t Constraining<D>::fix(Segments &segments) {
         if (!work_.has_simplices())
             throw Error(ABACUS_ERROR_STATE, "the points of the mesh span no triangle");
         work_.core->mesh.is_constrained = true;
-        Fixing fixing(work_.core->mesh);
-        return each(segments, [&](const Segments::Segment &s) { fixing.fix(s.a, s.b); });
+        gathering_.begin(*this, segments.size(), segment_words);
+        if (!gathering_.gathers()) {
+            Fixing fixing(work_.core->mesh);
+            return each(segments, [&](const Segments::Segment &s) { fixing.fix(s.a, s.b); });
+        }
+        std::array<std::uint64_t, segment_words> record;
+        const std::uint64_t all = each(segments, [&](const Segments::Segment &s) {
+            fill_segment(record.data(), s.a, s.b);
+            gathering_.gather_one(record.data(), segment_words, work_.domain.code(s.a));
+        });
+        gathering_.finish();
+        return all;
     } else {
         throw Error(ABACUS_ERROR_ARGUMENT, "lines need a mesh of dimension 2");
     }

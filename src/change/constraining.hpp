@@ -1,14 +1,20 @@
 // Edges fixed and freed, as a part of a change (build.hpp).
+//
+// With several threads, segments whose edges are to be fixed are gathered, and fixed together
+// (gathering.hpp). Edges are freed by the session's thread, which alone may ask for lines.
 #pragma once
 
-#include "change/workspace.hpp"
+#include "change/gathering.hpp"
 #include "constrain/segments.hpp"
 
 namespace abacus {
 
-template <int D> class Constraining {
+template <int D> class Constraining final : private Gathering<D>::User {
 public:
-    explicit Constraining(Workspace<D> &work) : work_(work) {}
+    Constraining(Workspace<D> &work, Gathering<D> &gathering)
+        : work_(work), gathering_(gathering) {}
+    Constraining(const Constraining &) = delete;
+    Constraining &operator=(const Constraining &) = delete;
 
     /// Fixes the edges of all segments, of a mesh with simplices; returns how many segments there
     /// were.
@@ -19,9 +25,20 @@ public:
     bool has_vertex(const Point<D> &p);
 
 private:
+    Deed deed() const override { return Deed::fix; }
+    bool is_shared() const override { return true; }
+    bool keeps_left() const override { return false; }
+    void take(const std::uint64_t *records, const std::uint64_t *codes, std::size_t n) override;
+    void finish_here() override {}
+    void take_left(const std::uint64_t *) override {}
+    const typename Gathering<D>::Removing *begin_sharing() override { return nullptr; }
+    void end_sharing() override {}
+    bool counts_crowded() const override { return false; }
+
     template <class Change> std::uint64_t each(Segments &segments, Change change);
 
     Workspace<D> &work_;
+    Gathering<D> &gathering_;
 };
 
 extern template class Constraining<2>;

@@ -37,7 +37,7 @@ template <int D> void Gathering<D>::begin(User &user, std::uint64_t points, std:
     const std::size_t bytes = std::max(work_.cache_bytes / gathered_share, least_gathered);
     std::uint64_t room = std::max<std::uint64_t>(1, bytes / gathered_bytes(1));
     // Of several batches the next one is gathered while threads insert one.
-    gathers_ahead_ = !user.removes() && points > room && room / 2 >= worth_sharing<D>;
+    gathers_ahead_ = !removes() && points > room && room / 2 >= worth_sharing<D>;
     if (gathers_ahead_) room /= 2;
     const std::uint64_t parts = std::max<std::uint64_t>(1, (points + room - 1) / room);
     most_gathered_ =
@@ -75,7 +75,7 @@ template <int D>
 void Gathering<D>::gather_one(const std::uint64_t *record, std::size_t words, std::uint64_t code) {
     const std::size_t n = gathered_.size();
     const bool begins_round = n > 0 && code < gathered_.code(n - 1);
-    if (n >= most_gathered_ || (begins_round && !user_->removes()))
+    if (n >= most_gathered_ || (begins_round && !removes()))
         change();
     else if (begins_round)
         gathered_.begin_run();
@@ -93,7 +93,7 @@ template <int D> bool Gathering<D>::is_worth_sharing() const {
     constexpr std::size_t looked_at = 8; // those of the last round are promoted by chance
     const std::size_t n = gathered_.size();
     if (n < worth_sharing<D>) return false;
-    if (user_->removes()) return true;
+    if (user_->deed() != Deed::insert) return true;
     for (std::size_t i = 0; i < looked_at; ++i)
         if (!Rounds<D>::is_promoted(record_point<D>(gathered_.record(i)))) return true;
     return n >= (gathers_ahead_ ? most_gathered_ : most_gathered_ / 2);
@@ -146,7 +146,7 @@ template <int D> void Gathering<D>::report_pass(std::uint64_t done) {
     reported_ = now;
     const PagesMoved moved = work_.pages_moved();
     const Desk &desk = crew_->desk();
-    host_.progress({user_->removes() ? ABACUS_PHASE_DELETING : ABACUS_PHASE_INSERTING, done_ + done,
+    host_.progress({removes() ? ABACUS_PHASE_DELETING : ABACUS_PHASE_INSERTING, done_ + done,
                     to_do_, moved.read + desk.pages_read(), moved.written + desk.pages_written(),
                     desk.at_work()});
 }
@@ -159,8 +159,8 @@ template <int D> std::size_t Gathering<D>::thread_cache_bytes() const {
 /// Starts the first pass; false if the system grants no thread, or no points are left for it.
 template <int D> bool Gathering<D>::begin_work() {
     if (!crew_) crew_.emplace(host_);
-    if (!user_->removes() && !host_.has_tiny_intervals()) insert_near_borders(*cuts_);
-    if (user_->removes()) {
+    if (!removes() && !host_.has_tiny_intervals()) insert_near_borders(*cuts_);
+    if (removes()) {
         work_.repeated->flush(); // threads read them
         if (work_.apart) work_.apart->flush();
     }
@@ -174,7 +174,7 @@ template <int D> bool Gathering<D>::begin_work() {
 
 template <int D> bool Gathering<D>::begin_pass() {
     pass_.emplace(work_, *crew_,
-                  typename Pass<D>::Task{working_, *cuts_, thread_cache_bytes(),
+                  typename Pass<D>::Task{working_, *cuts_, thread_cache_bytes(), user_->deed(),
                                          user_->counts_crowded(), how_},
                   [this](std::uint64_t done) { report_pass(done); });
     if (!crew_->begin(host_.threads(), cuts_->size(), *pass_)) pass_.reset();

@@ -1,4 +1,4 @@
-// Points inserted, or removed, by several threads.
+// Points inserted or removed, and edges of segments fixed, by several threads.
 //
 // Points come in rounds, each along the curve. Those that are inserted are gathered until the next
 // round begins; those that are removed come in rounds from the last to the first, and are gathered
@@ -18,6 +18,9 @@
 // The session's thread deals with points that equal a vertex after each pass, in their order, since
 // their pages are its own; at the end if they give the vertex another id. Points to be removed at a
 // place with such points are removed at the end.
+//
+// Segments come once along the curve, by their lesser ends, and are dealt with as points that are
+// inserted.
 //
 // Points near borders are not removed first. The session's thread would have to read the mesh for
 // them, and the stars of the full mesh are small.
@@ -41,7 +44,7 @@ public:
     /// What is done with the points.
     class User {
     public:
-        virtual bool removes() const = 0;
+        virtual Deed deed() const = 0;
         /// Whether threads may take part now.
         virtual bool is_shared() const = 0;
         /// Whether points that equal a vertex have to wait for the last pass.
@@ -53,7 +56,7 @@ public:
         virtual void finish_here() = 0;
         /// Deals with a point that the threads have left to the session's thread.
         virtual void take_left(const std::uint64_t *record) = 0;
-        /// How threads remove points, until end_sharing(); null if they insert them.
+        /// How threads remove points, until end_sharing(); null if they do something else.
         virtual const Removing *begin_sharing() = 0;
         virtual void end_sharing() = 0;
         /// See Interval::insert().
@@ -93,6 +96,7 @@ public:
     std::size_t thread_cache_bytes() const;
 
 private:
+    bool removes() const { return user_->deed() == Deed::remove; }
     /// The memory for this many gathered points, with copies of those that have to wait.
     std::size_t gathered_bytes(std::size_t points) const;
     /// The memory for the session's cache: with threads, what the gathered points leave.

@@ -41,7 +41,7 @@ public:
     Workspace<D> &work() { return work_; }
 
 private:
-    bool removes() const override { return false; }
+    Deed deed() const override { return Deed::insert; }
     bool is_shared() const override { return true; }
     bool keeps_left() const override { return on_duplicate_ == ABACUS_REPLACE; }
     void take(const std::uint64_t *records, const std::uint64_t *codes, std::size_t n) override;

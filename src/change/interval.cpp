@@ -1,6 +1,8 @@
 #include "change/interval.hpp"
 
 #include "blocks/counters.hpp"
+#include "constrain/fixing.hpp"
+#include "constrain/segments.hpp"
 #include "keys/domain_of.hpp"
 #include "mesh/page_attributes.hpp"
 #include "points/record.hpp"
@@ -131,6 +133,20 @@ void Interval<D>::remove(const Batch &batch, std::size_t from, std::size_t to, c
         return end;
     });
     if (dealt > 0) how.outlay.add(effort, dealt);
+}
+
+template <int D>
+void Interval<D>::fix(const Batch &batch, std::size_t from, std::size_t to,
+                      std::atomic<std::uint64_t> &done, Results &results) {
+    if constexpr (D == 2) {
+        Fixing fixing(mesh_);
+        each(from, to, done, [&](std::size_t i) {
+            const std::uint64_t *const record = batch.record(i);
+            if (!fixing.fix_within(record_point<2>(record), record_far_end(record)))
+                results.put_off.push_back(i);
+            return i + 1;
+        });
+    }
 }
 
 template class Interval<2>;

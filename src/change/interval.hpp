@@ -1,5 +1,5 @@
-// The work of one thread: it inserts points along an interval of the curve, or removes points
-// there, with a cache of its own.
+// The work of one thread: along an interval of the curve it inserts points, removes points, or
+// fixes the edges of segments, with a cache of its own.
 //
 // The interval begins and ends where pages do, and the thread loads no page of another one. So it
 // shares nothing with others, takes no lock, and pays nothing where it finds a simplex in its
@@ -17,6 +17,8 @@
 //      theirs. But it lacks the vertex that made them belong to the interval. If more than D of the
 //      vertex's neighbours lie before the interval, a simplex might join these alone. Then the
 //      vertex is put off, too.
+//      Fixing: the same holds for the vertices of the triangles that a segment crosses, on either
+//      side of it.
 //
 //   Outside. A simplex with a neighbour in another interval is never replaced, since the search
 //   would have visited that neighbour. So the key by which a page of another interval refers to it
@@ -24,7 +26,8 @@
 //
 //   All together. The result is that of inserting or removing the points of all intervals one after
 //   the other, in any order: no change reads what a change in another interval writes. The
-//   triangulation is unique, so its simplices do not depend on the intervals.
+//   triangulation is unique, so its simplices do not depend on the intervals. A segment may be
+//   fixed in part before it is put off: its edges are those of the whole one.
 //
 //   The last simplices. A removal may leave points that span no simplex. Then the star has all
 //   finite simplices, and all belong to the interval. Finite simplices are connected, so if another
@@ -122,6 +125,10 @@ private:
     Arena<std::size_t> later_runs_; // where they begin, except the first
 };
 
+/// What is done with the records of a batch. A segment to be fixed is the record of its lesser end,
+/// with the other one as attributes.
+enum class Deed { insert, remove, fix };
+
 template <int D> class Interval {
 public:
     /// What became of the points, by their numbers in the batch.
@@ -156,6 +163,10 @@ public:
     /// cheaper.
     void remove(const Batch &batch, std::size_t from, std::size_t to, const Removing &how,
                 std::atomic<std::uint64_t> &done, Results &results);
+    /// The same, but fixes the edges of segments. A segment that crosses a fixed edge is put off,
+    /// too: the session's thread reports it.
+    void fix(const Batch &batch, std::size_t from, std::size_t to, std::atomic<std::uint64_t> &done,
+             Results &results);
     /// Writes all pages.
     void finish(Results &results);
 

@@ -2,6 +2,7 @@
 
 #include "attributes/rewriting.hpp"
 #include "blocks/counters.hpp"
+#include "constrain/edge_heirs.hpp"
 #include "labels/label_heirs.hpp"
 #include "labels/marker_sweep.hpp"
 
@@ -9,6 +10,22 @@ namespace abacus {
 
 namespace {
 constexpr std::size_t share = 4; // of the cache's memory, beside it
+
+class LineHeirs final : public MarkerHeirs<2> {
+public:
+    LineHeirs(Delaunay<2> &mesh, std::size_t memory) : heirs_(mesh, memory) {}
+
+    void add(const Facet &facet, double marker) override { heirs_.add(facet[0], facet[1], marker); }
+    void each(const std::function<void(const Facet &, double)> &visit) override {
+        heirs_.each([&](const Point<2> &a, const Point<2> &b, double marker) {
+            visit({a, b}, marker);
+        });
+    }
+
+private:
+    EdgeHeirs heirs_;
+};
+
 } // namespace
 
 template <int D> void LabelUpkeep<D>::keep_unless_held() {
@@ -51,7 +68,12 @@ template <int D> void LabelUpkeep<D>::sweep_labels() {
 template <int D> void LabelUpkeep<D>::sweep_markers() {
     abacus_census &census = work_.facts->census;
     MarkerSweep<D> sweep(work_.host, *work_.facts, work_.domain, work_.cache_bytes / share);
-    census.marked = sweep.sweep(stored_->stretches(), census.marked);
+    std::optional<LineHeirs> of_lines;
+    MarkerHeirs<D> *heirs = nullptr;
+    if constexpr (D == 2)
+        if (work_.core->mesh.is_constrained)
+            heirs = &of_lines.emplace(work_.core->mesh, work_.cache_bytes / share);
+    census.marked = sweep.sweep(stored_->stretches(), census.marked, heirs);
     work_.counters() += sweep.finish();
 }
 

@@ -51,7 +51,7 @@ private:
     /// The part of the memory that the wants of a place may take.
     static constexpr std::size_t want_share = 16;
 
-    bool removes() const override { return true; }
+    Deed deed() const override { return Deed::remove; }
     bool is_shared() const override {
         return gathering_.gathers() && work_.has_simplices() && !deleting_.rest_;
     }

@@ -1,5 +1,5 @@
 // One pass of all threads over gathered points: each thread takes one interval after the other, and
-// inserts its points, or removes them.
+// inserts its points, removes them, or fixes its segments.
 #pragma once
 
 #include "change/cuts.hpp"
@@ -19,9 +19,10 @@ public:
     struct Task {
         const Batch &batch;
         const Cuts &cuts;
-        std::size_t cache_bytes;                   ///< of each thread
+        std::size_t cache_bytes; ///< of each thread
+        Deed deed;
         bool counts_crowded;                       ///< see Interval::insert()
-        const typename Interval<D>::Removing *how; ///< null if points are inserted
+        const typename Interval<D>::Removing *how; ///< null unless points are removed
     };
 
     /// report(done) is called now and then in the session's thread, with how many points are done.
@@ -49,10 +50,7 @@ public:
             if (!interval)
                 interval.emplace(host, *work_.facts, task_.cuts.first(number),
                                  task_.cuts.last(number), task_.cache_bytes, work_.changes);
-            if (task_.how != nullptr)
-                interval->remove(batch, begin, end, *task_.how, done_, results_[number]);
-            else
-                interval->insert(batch, begin, end, task_.counts_crowded, done_, results_[number]);
+            deal_with(*interval, begin, end, results_[number]);
         }
         if (interval) interval->finish(results_[number]);
     }
@@ -65,6 +63,18 @@ public:
     const AllResults &results() const { return results_; }
 
 private:
+    void deal_with(Interval<D> &interval, std::size_t begin, std::size_t end,
+                   typename Interval<D>::Results &results) {
+        switch (task_.deed) {
+        case Deed::insert:
+            return interval.insert(task_.batch, begin, end, task_.counts_crowded, done_, results);
+        case Deed::remove:
+            return interval.remove(task_.batch, begin, end, *task_.how, done_, results);
+        case Deed::fix:
+            return interval.fix(task_.batch, begin, end, done_, results);
+        }
+    }
+
     Workspace<D> &work_;
     const Task task_;
     const std::function<void(std::uint64_t)> report_;

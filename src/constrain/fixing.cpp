@@ -38,6 +38,18 @@ void Fixing::fix(const Point<2> &a, const Point<2> &b) {
     }
 }
 
+bool Fixing::fix_within(const Point<2> &a, const Point<2> &b) {
+    try {
+        fix(a, b);
+        return true;
+    } catch (const Foreign &) {
+    } catch (const Error &error) {
+        if (error.kind != ABACUS_ERROR_CROSSING) throw;
+    }
+    mesh_.finish(mesh_.anywhere);
+    return false;
+}
+
 Point<2> Fixing::advance(const Point<2> &from, const Point<2> &b) {
     const Link corner = vertex_at(mesh_, from);
     if (corner == unset) throw_no_vertex(from);
@@ -96,7 +108,16 @@ VertexIndex Fixing::cross(const Way &way, const Point<2> &b) {
     if (end == infinite_vertex) throw_no_vertex(b);
     for (const Bank *bank : {&left_, &right_})
         for (const Link edge : bank->edges) cache_.cross(link_simplex(edge), link_facet(edge));
+    for (const Bank *bank : {&left_, &right_}) require_within(*bank);
     return end;
+}
+
+// The new triangles have corners from a bank. None of their codes is above the interval, as no code
+// of the triangles crossed is. So it is enough if no more than two are below it.
+void Fixing::require_within(const Bank &bank) const {
+    int below = 0;
+    for (const VertexIndex v : bank.vertices) below += !cache_.keeps(cache_.vertices()[v].code);
+    if (below > 2) throw Foreign{};
 }
 
 void Fixing::cut_out() {

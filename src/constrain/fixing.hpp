@@ -23,6 +23,9 @@ public:
     /// Fixes the segment from a to b. Throws an Error (argument) if one is not a vertex, and one
     /// (crossing) if the segment crosses a fixed edge, before it changes anything there.
     void fix(const Point<2> &a, const Point<2> &b);
+    /// The same in a cache that keeps within an interval: false if the segment leaves it, or
+    /// crosses a fixed edge. A part of it may be fixed then.
+    bool fix_within(const Point<2> &a, const Point<2> &b);
 
 private:
     /// Of a side of the segment: its vertices from one end to the other, and the edges between
@@ -48,6 +51,7 @@ private:
     Point<2> force_edge(const Way &way, const Point<2> &b);
     /// Finds the triangles that are crossed; returns the vertex where they end.
     VertexIndex cross(const Way &way, const Point<2> &b);
+    void require_within(const Bank &bank) const;
     void require_free(Link edge, const Point<2> &from, const Point<2> &b) const;
     void cut_out();
     /// Makes the sides of both banks known to the patch.

@@ -4,6 +4,7 @@
 
 #include "geometry/point.hpp"
 #include "keys/domain_of.hpp"
+#include "points/record.hpp"
 #include "sort/record_sort.hpp"
 
 #include <abacus/facts.h>
@@ -14,6 +15,15 @@
 #include <optional>
 
 namespace abacus {
+
+/// A segment as the record of a point: its lesser end, with the other one as attributes.
+constexpr std::size_t segment_words = record_words(2, 2);
+inline void fill_segment(std::uint64_t *record, const Point<2> &a, const Point<2> &b) {
+    fill_record<2>(record, 0, a, b.data(), b.size());
+}
+inline Point<2> record_far_end(const std::uint64_t *record) {
+    return {record_attributes<2>(record)[0], record_attributes<2>(record)[1]};
+}
 
 class Segments {
 public:

@@ -13,11 +13,14 @@ MarkerSweep<D>::MarkerSweep(const Host &host, const abacus_facts &facts, const D
 
 template <int D>
 std::uint64_t MarkerSweep<D>::sweep(const Arena<StoredPages::Stretch> &stretches,
-                                    std::uint64_t marked) {
+                                    std::uint64_t marked, MarkerHeirs<D> *heirs) {
     std::uint64_t gone = 0, come = 0;
-    const auto take = [&](const Simplex &s, const double *markers) { add(s, markers); };
-    for (const StoredPages::Stretch &stretch : stretches) gone += rows_.sweep(stretch, take, take);
+    const auto lose = [&](const Simplex &s, const double *markers) { add(s, markers, heirs); };
+    const auto keep = [&](const Simplex &s, const double *markers) { add(s, markers, nullptr); };
+    for (const StoredPages::Stretch &stretch : stretches) gone += rows_.sweep(stretch, lose, keep);
     if (gone > marked) throw_corrupted("The header counts too few markers.");
+    if (heirs != nullptr)
+        heirs->each([this](const Owner<D, D> &facet, double marker) { add(facet, marker); });
     spool_.rewind();
     while (read_marked())
         for (const StoredPages::Stretch &stretch : stretches) {
@@ -28,14 +31,20 @@ std::uint64_t MarkerSweep<D>::sweep(const Arena<StoredPages::Stretch> &stretches
     return marked - gone + come;
 }
 
-template <int D> void MarkerSweep<D>::add(const Simplex &simplex, const double *markers) {
+template <int D>
+void MarkerSweep<D>::add(const Simplex &simplex, const double *markers, MarkerHeirs<D> *heirs) {
     for (int i = 0; i <= D; ++i) {
         if (!has_marker(markers[i])) continue;
         const Owner<D, D> facet = facet_of<D>(simplex, i);
-        std::uint64_t *const record = spool_.add();
-        std::memcpy(record, facet.data(), sizeof facet);
-        record[D * D] = std::bit_cast<std::uint64_t>(markers[i]);
+        add(facet, markers[i]);
+        if (heirs != nullptr) heirs->add(facet, markers[i]);
     }
+}
+
+template <int D> void MarkerSweep<D>::add(const Owner<D, D> &facet, double marker) {
+    std::uint64_t *const record = spool_.add();
+    std::memcpy(record, facet.data(), sizeof facet);
+    record[D * D] = std::bit_cast<std::uint64_t>(marker);
 }
 
 template <int D> bool MarkerSweep<D>::read_marked() {

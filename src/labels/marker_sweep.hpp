@@ -7,6 +7,9 @@
 // simplices that stay are looked up, too: a facet of the hull may now have a simplex beyond it. As
 // for labels, neither order nor threads matter.
 //
+// A fixed edge of a removed simplex may have been split or joined with another one. Then its heirs,
+// which the caller knows (MarkerHeirs), are looked up, too.
+//
 // These facets go to a spool; as many as memory holds are looked up at once.
 #pragma once
 
@@ -41,14 +44,28 @@ bool set_marker(AttributePages<D, D + 1> &pages, const Owner<D, D + 1> &simplex,
     return true;
 }
 
+/// Who inherits the markers of facets that have gone.
+template <int D> class MarkerHeirs {
+public:
+    using Facet = Owner<D, D>;
+    /// A facet of a simplex that has gone, which may still be in the mesh, beside others.
+    virtual void add(const Facet &facet, double marker) = 0;
+    /// Each facet that inherits a marker; no more can be added.
+    virtual void each(const std::function<void(const Facet &, double)> &visit) = 0;
+
+protected:
+    ~MarkerHeirs() = default;
+};
+
 template <int D> class MarkerSweep {
 public:
     MarkerSweep(const Host &host, const abacus_facts &facts, const Domain<D> &domain,
                 std::size_t memory);
 
     /// For a change that has stored these stretches. Returns how many simplices have markers now,
-    /// if `marked` had some before.
-    std::uint64_t sweep(const Arena<StoredPages::Stretch> &stretches, std::uint64_t marked);
+    /// if `marked` had some before. `heirs` may be null.
+    std::uint64_t sweep(const Arena<StoredPages::Stretch> &stretches, std::uint64_t marked,
+                        MarkerHeirs<D> *heirs);
     abacus_counters finish() { return rows_.finish(); }
 
 private:
@@ -66,7 +83,8 @@ private:
     };
     static constexpr std::size_t least_room = 64;
 
-    void add(const Simplex &simplex, const double *markers);
+    void add(const Simplex &simplex, const double *markers, MarkerHeirs<D> *heirs);
+    void add(const Owner<D, D> &facet, double marker);
     /// Reads the next facets to look up; false if there are none.
     bool read_marked();
     void look_at(const Simplex &simplex, std::uint64_t code);
