@@ -36,8 +36,9 @@ ABACUS_API abacus_status abacus_check_open(const abacus_host *host, const abacus
 ABACUS_API abacus_status abacus_check_next(abacus_check *check, abacus_fault *fault);
 /* Simplices whose volume, computed in doubles, is lost in rounding; this is not a fault. */
 ABACUS_API uint64_t abacus_check_flat(const abacus_check *check);
-/* Edges that are fixed: as many as the lines of the mesh have (constrain.h). */
-ABACUS_API uint64_t abacus_check_fixed(const abacus_check *check);
+/* Edges that are fixed, and soft ones among them: as many as the lines of the mesh have
+ * (constrain.h). */
+ABACUS_API uint64_t abacus_check_fixed(const abacus_check *check, uint64_t *soft);
 ABACUS_API void abacus_check_close(abacus_check *check);
 
 #ifdef __cplusplus

@@ -25,9 +25,18 @@ typedef struct abacus_segments abacus_segments;
 ABACUS_API abacus_status abacus_segments_open(const abacus_host *host, const abacus_facts *facts,
 											  size_t memory, abacus_segments **segments,
 											  abacus_error *error);
-/* Adds `count` segments of 4 doubles each: the places of both ends, x and y. */
-ABACUS_API abacus_status abacus_segments_add(abacus_segments *segments, const double *ends,
-											 size_t count, abacus_error *error);
+
+/* A segment of a line. */
+typedef struct abacus_segment
+{
+	double ends[2][2]; /* the places of both */
+	int32_t is_soft;   /* 1 if the line is soft, 0 if it is hard */
+} abacus_segment;
+
+/* Adds `count` segments. One that is added several times is hard if it is so once. */
+ABACUS_API abacus_status abacus_segments_add(abacus_segments *segments,
+											 const abacus_segment *added, size_t count,
+											 abacus_error *error);
 ABACUS_API void abacus_segments_close(abacus_segments *segments);
 
 /* ---- Lines, as the host keeps them ------------------------------------------------ */
@@ -37,6 +46,7 @@ typedef struct abacus_segment_end
 {
 	int64_t line;
 	double other[2]; /* the place of its other end */
+	int32_t is_soft;
 } abacus_segment_end;
 
 /*
@@ -57,7 +67,7 @@ ABACUS_API abacus_status abacus_build_lines(abacus_build *build, abacus_segments
 
 /*
  * fix: makes each segment an edge of the mesh, or a chain of edges, that is fixed. Its ends must be
- * vertices: ABACUS_ERROR (argument) if one is not. ABACUS_ERROR (crossing) if a segment crosses
+ * vertices: ABACUS_ERROR (argument) if one is not. An edge is soft if all its segments are. ABACUS_ERROR (crossing) if a segment crosses
  * another one, or a fixed edge, elsewhere than in a vertex. The mesh must have simplices; points that
  * wait are inserted before.
  */
@@ -65,7 +75,7 @@ ABACUS_API abacus_status abacus_build_fix(abacus_build *build, abacus_segments *
 										  abacus_header *header, abacus_error *error);
 /*
  * unfix: frees the edges of each segment, but for those that are on a segment of a line that the
- * host still has; so their lines must be gone there.
+ * host still has, which get its kind; so their lines must be gone there.
  */
 ABACUS_API abacus_status abacus_build_unfix(abacus_build *build, abacus_segments *segments,
 											abacus_header *header, abacus_error *error);
@@ -79,9 +89,16 @@ ABACUS_API abacus_status abacus_build_vertex_at(abacus_build *build, const doubl
 
 /* ---- Reading --------------------------------------------------------------------------- */
 
+typedef enum abacus_edge_kind
+{
+	ABACUS_FREE_EDGE,
+	ABACUS_SOFT_EDGE, /* all lines over it are soft */
+	ABACUS_HARD_EDGE
+} abacus_edge_kind;
+
 /* Gets an edge on a segment: ids and places of its ends, in the direction of the segment. */
 typedef abacus_host_status (*abacus_along_report)(void *context, const int64_t ids[2],
-												 const double ends[2][2], int is_fixed);
+												 const double ends[2][2], abacus_edge_kind kind);
 /*
  * Reports the edges of the mesh that make up the segment from a to b, in their order; *is_whole is 0
  * if the mesh lacks one, where the report ends.

@@ -39,7 +39,8 @@ abacus_status abacus_check_next(abacus_check *check, abacus_fault *fault) {
     return check->visit([&](auto &faults) { return faults.next(*fault) ? ABACUS_OK : ABACUS_END; });
 }
 
-uint64_t abacus_check_fixed(const abacus_check *check) {
+uint64_t abacus_check_fixed(const abacus_check *check, uint64_t *soft) {
+    *soft = check->mesh ? check->mesh->visit([](const auto &mesh) { return mesh.soft(); }) : 0;
     return check->mesh ? check->mesh->visit([](const auto &mesh) { return mesh.fixed(); }) : 0;
 }
 

@@ -25,10 +25,13 @@ abacus_status abacus_segments_open(const abacus_host *host, const abacus_facts *
     });
 }
 
-abacus_status abacus_segments_add(abacus_segments *segments, const double *ends, size_t count,
-                                  abacus_error *error) {
+abacus_status abacus_segments_add(abacus_segments *segments, const abacus_segment *added,
+                                  size_t count, abacus_error *error) {
+    using abacus::Fixed;
     return abacus::guard(error, [&] {
-        for (size_t i = 0; i < count; ++i) segments->segments.add(ends + 4 * i);
+        for (size_t i = 0; i < count; ++i)
+            segments->segments.add(added[i].ends[0],
+                                   added[i].is_soft != 0 ? Fixed::soft : Fixed::hard);
         return ABACUS_OK;
     });
 }
@@ -80,12 +83,15 @@ abacus_status abacus_edges_along(abacus_mesh *mesh, const double a[2], const dou
             if constexpr (D != 2) {
                 throw Error(ABACUS_ERROR_ARGUMENT, "lines need a mesh of dimension 2");
             } else {
-                const auto tell = [&](VertexIndex from, VertexIndex to, bool is_fixed) {
+                const auto tell = [&](VertexIndex from, VertexIndex to, Fixed how) {
                     const VertexHeap<2> &vertices = reader.cache().vertices();
                     const std::int64_t ids[2] = {vertices.id(from), vertices.id(to)};
                     const Point<2> &p = vertices.point(from), &q = vertices.point(to);
                     const double ends[2][2] = {{p[0], p[1]}, {q[0], q[1]}};
-                    if (report(context, ids, ends, is_fixed) != ABACUS_HOST_OK) throw HostFailure{};
+                    const abacus_edge_kind kind = how == Fixed::no     ? ABACUS_FREE_EDGE
+                                                  : how == Fixed::soft ? ABACUS_SOFT_EDGE
+                                                                       : ABACUS_HARD_EDGE;
+                    if (report(context, ids, ends, kind) != ABACUS_HOST_OK) throw HostFailure{};
                 };
                 *is_whole = edges_along(reader, finite_point<2>(a), finite_point<2>(b), tell);
                 return ABACUS_OK;

@@ -15,7 +15,7 @@ std::uint64_t Constraining<D>::each(Segments &segments, Change change) {
     const std::uint64_t all = segments.size();
     std::uint64_t done = 0;
     work_.report(ABACUS_PHASE_INSERTING, 0, all);
-    segments.each([&](const Segments::Segment &segment) {
+    segments.each([&](const Segment &segment) {
         change(segment);
         if (++done % segments_at_once == 0)
             work_.report(ABACUS_PHASE_INSERTING, done - gathering_.size(), all);
@@ -27,8 +27,10 @@ template <int D>
 void Constraining<D>::take(const std::uint64_t *records, const std::uint64_t *, std::size_t n) {
     if constexpr (D == 2) {
         Fixing fixing(work_.core->mesh);
-        for (; n > 0; --n, records += segment_words)
-            fixing.fix(record_point<2>(records), record_far_end(records));
+        for (; n > 0; --n, records += segment_words) {
+            const Segment segment = record_segment(records);
+            fixing.fix(segment.a, segment.b, segment.how);
+        }
     }
 }
 
@@ -40,11 +42,11 @@ template <int D> std::uint64_t Constraining<D>::fix(Segments &segments) {
         gathering_.begin(*this, segments.size(), segment_words);
         if (!gathering_.gathers()) {
             Fixing fixing(work_.core->mesh);
-            return each(segments, [&](const Segments::Segment &s) { fixing.fix(s.a, s.b); });
+            return each(segments, [&](const Segment &s) { fixing.fix(s.a, s.b, s.how); });
         }
         std::array<std::uint64_t, segment_words> record;
-        const std::uint64_t all = each(segments, [&](const Segments::Segment &s) {
-            fill_segment(record.data(), s.a, s.b);
+        const std::uint64_t all = each(segments, [&](const Segment &s) {
+            fill_segment(record.data(), s);
             gathering_.gather_one(record.data(), segment_words, work_.domain.code(s.a));
         });
         gathering_.finish();
@@ -61,7 +63,7 @@ template <int D> std::uint64_t Constraining<D>::unfix(Segments &segments) {
             throw Error(ABACUS_ERROR_STATE, "edges cannot be freed without the lines of the mesh");
         work_.core->mesh.is_constrained = true;
         Freeing freeing(work_.core->mesh, *work_.lines);
-        return each(segments, [&](const Segments::Segment &s) { freeing.free(s.a, s.b); });
+        return each(segments, [&](const Segment &s) { freeing.free(s.a, s.b); });
     } else {
         throw Error(ABACUS_ERROR_ARGUMENT, "lines need a mesh of dimension 2");
     }

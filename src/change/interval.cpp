@@ -141,9 +141,8 @@ void Interval<D>::fix(const Batch &batch, std::size_t from, std::size_t to,
     if constexpr (D == 2) {
         Fixing fixing(mesh_);
         each(from, to, done, [&](std::size_t i) {
-            const std::uint64_t *const record = batch.record(i);
-            if (!fixing.fix_within(record_point<2>(record), record_far_end(record)))
-                results.put_off.push_back(i);
+            const Segment segment = record_segment(batch.record(i));
+            if (!fixing.fix_within(segment.a, segment.b, segment.how)) results.put_off.push_back(i);
             return i + 1;
         });
     }

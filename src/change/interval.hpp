@@ -125,8 +125,8 @@ private:
     Arena<std::size_t> later_runs_; // where they begin, except the first
 };
 
-/// What is done with the records of a batch. A segment to be fixed is the record of its lesser end,
-/// with the other one as attributes.
+/// What is done with the records of a batch. A segment to be fixed is a record as in
+/// constrain/segments.hpp.
 enum class Deed { insert, remove, fix };
 
 template <int D> class Interval {

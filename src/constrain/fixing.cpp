@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstring>
 #include <string>
 
 namespace abacus {
@@ -25,12 +26,14 @@ std::string in_words(const Point<2> &p) {
 
 } // namespace
 
-Fixing::Fixing(Delaunay<2> &mesh)
+Fixing::Fixing(Delaunay<2> &mesh, std::size_t most_crossed)
     : mesh_(mesh), cache_(mesh.cache()), patch_(mesh), crossed_(cache_.host()),
       left_(cache_.host()), right_(cache_.host()), left_sides_(cache_.host()),
-      right_sides_(cache_.host()), dangling_(cache_.host()) {}
+      right_sides_(cache_.host()), dangling_(cache_.host()), most_crossed_(most_crossed) {}
 
-void Fixing::fix(const Point<2> &a, const Point<2> &b) {
+void Fixing::go(const Point<2> &a, const Point<2> &b, Fixed how) {
+    how_ = how;
+    limit_ = most_crossed_;
     for (Point<2> at = a; at != b;) {
         cache_.poll();
         at = advance(at, b);
@@ -38,9 +41,16 @@ void Fixing::fix(const Point<2> &a, const Point<2> &b) {
     }
 }
 
-bool Fixing::fix_within(const Point<2> &a, const Point<2> &b) {
+void Fixing::fix(const Point<2> &a, const Point<2> &b, Fixed how) {
+    stays_within_ = false;
+    go(a, b, how);
+    if (beside_) restore();
+}
+
+bool Fixing::fix_within(const Point<2> &a, const Point<2> &b, Fixed how) {
+    stays_within_ = true;
     try {
-        fix(a, b);
+        go(a, b, how);
         return true;
     } catch (const Foreign &) {
     } catch (const Error &error) {
@@ -62,10 +72,10 @@ Point<2> Fixing::fix_edge(const Way &way, const Point<2> &from, const Point<2> &
     const Point<2> end = cache_.point(cache_.simplex(way.triangle).vertex[(way.corner + 1) % 3]);
     if (is_behind(from, b, end)) throw_no_vertex(b);
     const Link inner = make_link(way.triangle, (way.corner + 2) % 3);
-    if (cache_.is_fixed(inner)) return end;
+    if (cache_.fixed(inner) >= how_) return end;
     const Link outer = cache_.cross(way.triangle, (way.corner + 2) % 3);
     for (const Link side : {inner, outer}) {
-        cache_.set_fixed(side, true);
+        cache_.set_fixed(side, how_);
         cache_.mark_dirty(link_simplex(side));
     }
     return end;
@@ -98,6 +108,11 @@ VertexIndex Fixing::cross(const Way &way, const Point<2> &b) {
         [&](Link edge) {
             crossed_.push_back(link_simplex(edge));
             require_free(edge, from, b);
+            if (crossed_.size() < limit_) return true;
+            if (stays_within_) throw Foreign{};
+            cache_.cross(link_simplex(edge), link_facet(edge));
+            closing_ = edge;
+            return false;
         },
         [&](Handle h, int apex, int turn) {
             const VertexIndex z = cache_.simplex(h).vertex[apex];
@@ -151,15 +166,23 @@ void Fixing::pair_up() {
             std::lower_bound(dangling_.begin(), dangling_.end(),
                              Dangling{one.outer, one.inner, nullptr}, comes_before);
         if (other == dangling_.end() || other->inner != one.outer) throw_no_triangulation();
-        const auto sides = patch_.inside(cache_.is_fixed(one.inner));
+        const auto sides = patch_.inside(cache_.fixed(one.inner));
         *one.side = sides[0];
         *other->side = sides[1];
     }
 }
 
 Point<2> Fixing::force_edge(const Way &way, const Point<2> &b) {
-    const VertexIndex end = cross(way, b);
+    const VertexIndex from = cache_.simplex(way.triangle).vertex[way.corner], end = cross(way, b);
     const Point<2> next = cache_.point(end);
+    if (end == from)
+        make_funnel();
+    else
+        fill_sides();
+    return next;
+}
+
+void Fixing::begin_patch() {
     patch_.begin();
     dangling_.clear();
     for (const Handle h : crossed_) mesh_.marks.set(h, Marks::inside);
@@ -167,6 +190,47 @@ Point<2> Fixing::force_edge(const Way &way, const Point<2> &b) {
     meet(right_, right_sides_);
     for (const Handle h : crossed_) mesh_.marks.set(h, Marks::none);
     pair_up();
+}
+
+void Fixing::make_funnel() {
+    begin_patch();
+    const Patch::Side end =
+        patch_.outside(cache_.simplex(link_simplex(closing_)).link[link_facet(closing_)]);
+    cut_out();
+    const std::size_t beside = patch_.fill_funnel({right_.vertices.data(), right_.vertices.size()},
+                                                  {right_sides_.data(), right_sides_.size()},
+                                                  {left_.vertices.data(), left_.vertices.size()},
+                                                  {left_sides_.data(), left_sides_.size()}, end);
+    if (!beside_) beside_.emplace(cache_.host(), 4);
+    patch_.finish_as_is(beside, [&](VertexIndex a, VertexIndex b) {
+        std::uint64_t *const record = beside_->add();
+        std::memcpy(record, cache_.point(a).data(), sizeof(Point<2>));
+        std::memcpy(record + 2, cache_.point(b).data(), sizeof(Point<2>));
+    });
+    limit_ = std::max(limit_, 4 * (crossed_.size() - beside));
+}
+
+void Fixing::restore() {
+    Restoring restoring(mesh_);
+    beside_->rewind();
+    while (const std::uint64_t *const record = beside_->next()) {
+        Point<2> a, b;
+        std::memcpy(a.data(), record, sizeof a);
+        std::memcpy(b.data(), record + 2, sizeof b);
+        const Way way = straight_on(cache_, vertex_at(mesh_, a), b);
+        if (way.is_edge &&
+            cache_.point(cache_.simplex(way.triangle).vertex[(way.corner + 1) % 3]) == b) {
+            restoring.add(make_link(way.triangle, (way.corner + 2) % 3));
+            restoring.run();
+        }
+        mesh_.finish(mesh_.anywhere);
+    }
+    beside_->close();
+    beside_.reset();
+}
+
+void Fixing::fill_sides() {
+    begin_patch();
     cut_out();
     const Patch::Side right = patch_.fill_chain({right_.vertices.data(), right_.vertices.size()},
                                                 {right_sides_.data(), right_sides_.size()});
@@ -175,9 +239,8 @@ Point<2> Fixing::force_edge(const Way &way, const Point<2> &b) {
     std::reverse(left_sides_.begin(), left_sides_.end());
     const Patch::Side left = patch_.fill_chain({left_.vertices.data(), left_.vertices.size()},
                                                {left_sides_.data(), left_sides_.size()});
-    patch_.join(left, right, true);
+    patch_.join(left, right, how_);
     patch_.finish();
-    return next;
 }
 
 } // namespace abacus

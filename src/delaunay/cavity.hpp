@@ -123,6 +123,7 @@ private:
     Arena<RimEdge> rim_; // with the first one repeated at the end, while it is filled
     Arena<Handle> created_;
     std::array<VertexIndex, 2> split_; // the ends of the fixed edge that is split, or none
+    Fixed split_kind_ = Fixed::no;
 };
 
 template <> class Cavity<3> : CavityInside<3> {

@@ -79,6 +79,7 @@ bool Cavity<2>::splits(Link edge, const Point<2> &p) {
                                           vertex[(link_facet(edge) + 2) % 3]};
     if (orientation(cache_.point(ends[0]), cache_.point(ends[1]), p) != 0) return false;
     split_ = ends;
+    split_kind_ = cache_.fixed(edge);
     return true;
 }
 
@@ -125,10 +126,11 @@ void Cavity<2>::fix_edges() {
     Handle previous = created_[created_.size() - 2];
     for (std::size_t i = 0; i + 1 < created_.size(); ++i) {
         const Handle h = created_[i];
-        if (cache_.is_fixed(rim_[i].outer)) cache_.set_fixed(make_link(h, 2), true);
+        if (const Fixed how = cache_.fixed(rim_[i].outer); how != Fixed::no)
+            cache_.set_fixed(make_link(h, 2), how);
         if (rim_[i].begin == split_[0] || rim_[i].begin == split_[1]) {
-            cache_.set_fixed(make_link(h, 1), true);
-            cache_.set_fixed(make_link(previous, 0), true);
+            cache_.set_fixed(make_link(h, 1), split_kind_);
+            cache_.set_fixed(make_link(previous, 0), split_kind_);
         }
         previous = h;
     }
@@ -136,13 +138,15 @@ void Cavity<2>::fix_edges() {
 
 void Cavity<2>::bring_infinity_last(Handle h) {
     Simplex<2> s = cache_.simplex(h);
-    const unsigned fixed = cache_.fixed(h);
+    const FixedFacets<2> fixed = cache_.fixed(h);
     for (int i = 0; i < 2; ++i) {
         if (s.vertex[i] != infinite_vertex) continue;
         std::rotate(s.vertex.begin(), s.vertex.begin() + i + 1, s.vertex.end());
         std::rotate(s.link.begin(), s.link.begin() + i + 1, s.link.end());
         cache_.set(h, s);
-        cache_.set_fixed(h, (fixed >> (i + 1) | fixed << (2 - i)) & 7);
+        FixedFacets<2> rotated;
+        for (int k = 0; k < 3; ++k) rotated.set(k, fixed[(k + i + 1) % 3]);
+        cache_.set_fixed(h, rotated);
         for (int k = 0; k < 3; ++k) cache_.point_at(s.link[k], make_link(h, k));
         return;
     }

@@ -31,8 +31,10 @@ std::size_t Refill::look_at(const Star<2> &star) {
     for (std::size_t i = 0; i < star.link().size(); ++i) {
         const Link outer = star.rim()[i].outer,
                    inner = cache.simplex(link_simplex(outer)).link[link_facet(outer)];
-        if (cache.is_fixed(make_link(link_simplex(inner), (link_facet(inner) + 2) % 3)))
-            spokes_.push_back(i);
+        const Fixed how = cache.fixed(make_link(link_simplex(inner), (link_facet(inner) + 2) % 3));
+        if (how == Fixed::no) continue;
+        spokes_.push_back(i);
+        kind_ = how;
     }
     return spokes_.size();
 }
@@ -111,7 +113,7 @@ std::size_t Refill::fill(const Star<2> &star) {
     if (spokes_.size() == 2) {
         const Patch::Side one = fill_side(star, spokes_[0], spokes_[1]),
                           other = fill_side(star, spokes_[1], spokes_[0]);
-        patch_.join(one, other, true);
+        patch_.join(one, other, kind_);
         return patch_.finish();
     }
     corners_.clear();

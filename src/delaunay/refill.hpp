@@ -33,6 +33,7 @@ private:
     Delaunay<2> &mesh_;
     Patch patch_;
     Arena<std::size_t> spokes_; // places in the link
+    Fixed kind_ = Fixed::no;    // of the last
     Arena<VertexIndex> corners_;
     Arena<Patch::Side> beyond_;
 };

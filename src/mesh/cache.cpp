@@ -27,14 +27,14 @@ template <int D> std::uint64_t Cache<D>::part(const Simplex<D> &s) const {
     return Domain<D>::part(corners, codes, n);
 }
 
-template <int D> void Cache<D>::set_fixed(Handle h, unsigned facets) {
+template <int D> void Cache<D>::set_fixed(Handle h, FixedFacets<D> facets) {
     if (static_cast<std::size_t>(h) >= fixed_.size()) {
-        if (facets == 0) return;
+        if (!facets.any()) return;
         const std::size_t before = fixed_.size();
         fixed_.resize(slots_.size());
-        std::fill(fixed_.begin() + before, fixed_.end(), std::uint8_t{0});
+        std::fill(fixed_.begin() + before, fixed_.end(), FixedFacets<D>{});
     }
-    fixed_[h] = static_cast<std::uint8_t>(facets);
+    fixed_[h] = facets;
 }
 
 template <int D> Handle Cache<D>::closest_of_some(BlockIndex b, const Point<D> &p) const {

@@ -97,16 +97,19 @@ public:
 
     // ---- Fixed facets, of a constrained mesh in the plane -----------------------------
 
-    /// A bit for each facet of a simplex that is fixed.
-    unsigned fixed(Handle h) const {
-        return static_cast<std::size_t>(h) < fixed_.size() ? fixed_[h] : 0u;
+    FixedFacets<D> fixed(Handle h) const {
+        return static_cast<std::size_t>(h) < fixed_.size() ? fixed_[h] : FixedFacets<D>{};
     }
-    bool is_fixed(Link facet) const { return fixed(link_simplex(facet)) >> link_facet(facet) & 1; }
-    void set_fixed(Handle h, unsigned facets);
+    bool is_fixed(Link facet) const {
+        return fixed(link_simplex(facet)).is_fixed(link_facet(facet));
+    }
+    Fixed fixed(Link facet) const { return fixed(link_simplex(facet))[link_facet(facet)]; }
+    void set_fixed(Handle h, FixedFacets<D> facets);
     /// One side of it.
-    void set_fixed(Link facet, bool is_fixed) {
-        const unsigned bit = 1u << link_facet(facet), others = fixed(link_simplex(facet)) & ~bit;
-        set_fixed(link_simplex(facet), is_fixed ? others | bit : others);
+    void set_fixed(Link facet, Fixed how) {
+        FixedFacets<D> facets = fixed(link_simplex(facet));
+        facets.set(link_facet(facet), how);
+        set_fixed(link_simplex(facet), facets);
     }
 
     /// Number of a vertex in a numbering of the caller's.
@@ -213,11 +216,11 @@ public:
     void ask_for_code(const Simplex<D> &s) const { touch(&vertices_[s.vertex[0]].code); }
     void ask_for_contents(BlockIndex b) const;
     std::size_t bytes_beside_blocks() const {
-        return vertices_.bytes() + visible_.bytes() + fixed_.size();
+        return vertices_.bytes() + visible_.bytes() + fixed_.size() * sizeof(FixedFacets<D>);
     }
     /// The neighbours' links follow.
     void moved(Handle from, Handle to) {
-        if (const unsigned facets = fixed(from); facets != 0) [[unlikely]] {
+        if (const FixedFacets<D> facets = fixed(from); facets.any()) [[unlikely]] {
             set_fixed(to, facets);
             forget_fixed(from);
         }
@@ -279,15 +282,17 @@ private:
     bool leads_to(const Key &link, Handle h) const;
     /// Both sides of a facet that is linked must say the same.
     void check_fixed(Link facet, Link beyond) const {
-        if (is_fixed(facet) != is_fixed(beyond))
-            throw_corrupted("An edge is fixed on one of its sides only.");
+        if (fixed(facet) != fixed(beyond))
+            throw_corrupted(is_fixed(facet) == is_fixed(beyond)
+                                ? "A fixed edge is soft on one of its sides only."
+                                : "An edge is fixed on one of its sides only.");
     }
     void forget_fixed(Handle h) {
         if (static_cast<std::size_t>(h) < fixed_.size()) [[unlikely]]
-            fixed_[h] = 0;
+            fixed_[h] = {};
     }
     /// Of the slots of a block; null if none is fixed.
-    const std::uint8_t *fixed_of(Handle first) const {
+    const FixedFacets<D> *fixed_of(Handle first) const {
         return static_cast<std::size_t>(first) < fixed_.size() ? &fixed_[first] : nullptr;
     }
 
@@ -317,8 +322,8 @@ private:
     CacheOptions options_;
     VertexHeap<D> vertices_;
     VisibleFacets<D> visible_;
-    /// Of all slots, if a facet is or was fixed; 0 of free ones.
-    Arena<std::uint8_t, Handle> fixed_;
+    /// Of all slots, if a facet is or was fixed; none of free ones.
+    Arena<FixedFacets<D>, Handle> fixed_;
 
     // Page translation: reused from page to page.
     PageView<D> view_;

@@ -32,7 +32,7 @@ template <int D> const char *Cache<D>::check_links(Handle h) const {
         const auto a = facet(here), b = facet(there);
         if (a.vertex != b.vertex) return "a link leads to another facet";
         if (a.odd == b.odd) return "neighbours have the same orientation";
-        if (is_fixed(here) != is_fixed(there)) return "an edge is fixed on one side only";
+        if (fixed(here) != fixed(there)) return "an edge is fixed on one side only";
     }
     return nullptr;
 }

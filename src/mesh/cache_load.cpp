@@ -143,8 +143,9 @@ template <int D> void Cache<D>::load_simplices(Handle first) {
 template <int D> void Cache<D>::load_fixed(Handle first) {
     if (!view_.has_fixed()) return;
     for (int s = 0; s < view_.simplices(); ++s) {
-        const unsigned facets = view_.fixed(s);
-        if (view_.is_ghost(s) && (facets & ~(1u << D)) != 0)
+        const FixedFacets<D> facets = view_.fixed(s);
+        if (!facets.is_sound()) throw_corrupted("An edge is soft that is not fixed.");
+        if (view_.is_ghost(s) && facets.count() > (facets.is_fixed(D) ? 1 : 0))
             throw_corrupted("An edge at the point at infinity is fixed.");
         set_fixed(first + static_cast<std::uint32_t>(s), facets);
     }

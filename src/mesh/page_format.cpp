@@ -36,7 +36,7 @@ void PageView<D>::read_header(const unsigned char *bytes, std::size_t size, int 
                         ", not " + std::to_string(PageHeader::expected_version) + ".",
                     "Build the mesh anew with this version of the extension.");
     require(header_.dimension == D && header_.attributes == attributes &&
-                header_.fixed <= (D == 2 ? 1 : 0),
+                header_.fixed <= (D == 2 ? 2 : 0),
             "A simplex page belongs to another kind of mesh.");
     require(header_.simplices <= block_slots<D> && header_.vertices <= page_vertices<D> &&
                 header_.links <= header_.simplices * (D + 1) && header_.codes <= header_.links,
@@ -93,7 +93,7 @@ void PageView<D>::open(const unsigned char *bytes, std::size_t size, int attribu
     });
     has_parts_ = parts_.is_not_zero();
     link_vertices_ = fields(l, std::bit_width(v + header_.codes));
-    fixed_ = fields(has_fixed() ? s : 0, D + 1);
+    fixed_ = fields(has_fixed() ? s : 0, header_.fixed * FixedFacets<D>::width);
     require(at == end, wrong_size);
 }
 

@@ -11,7 +11,8 @@
 //   links       for each facet whose neighbour is in another page, in the order simplex by
 //               simplex, facet by facet: the number of the vertex whose code is that of the
 //               neighbour's key; beyond the vertices come the codes
-//   fixed       if a facet is fixed, D + 1 bits a simplex: which of its facets are
+//   fixed       if a facet is fixed, D + 1 bits a simplex: which of its facets are; if one is soft,
+//               D + 1 more: which of these are soft
 //   checksum    8 bytes, XXH3 of all before
 //
 // Simplices come in trees, each breadth first across facets (cf. Rossignac's Edgebreaker,
@@ -36,6 +37,7 @@
 #include "blocks/page_seal.hpp"
 #include "geometry/point.hpp"
 #include "keys/key.hpp"
+#include "mesh/fixed_facets.hpp"
 #include "mesh/page_tree.hpp"
 #include "mesh/simplex.hpp"
 
@@ -51,7 +53,7 @@ struct PageHeader {
     std::uint8_t version;
     std::uint8_t dimension;
     std::uint8_t attributes;
-    std::uint8_t fixed; // 1: some facets are fixed
+    std::uint8_t fixed; // 1: some facets are fixed; 2: and some of these are soft
     std::uint16_t simplices;
     std::uint16_t vertices;
     std::uint16_t links;
@@ -161,9 +163,8 @@ public:
     int corner(int simplex, int i) const { return corners(simplex)[i]; }
     const Lanes &corners(int simplex) const { return corners_[simplex]; }
     bool has_fixed() const { return header_.fixed != 0; }
-    /// A bit for each fixed facet of a simplex.
-    unsigned fixed(int simplex) const {
-        return has_fixed() ? static_cast<unsigned>(fixed_[simplex]) : 0;
+    FixedFacets<D> fixed(int simplex) const {
+        return FixedFacets<D>::from_bits(has_fixed() ? static_cast<unsigned>(fixed_[simplex]) : 0u);
     }
     bool is_ghost(int simplex) const { return corner(simplex, D) == vertices(); }
 

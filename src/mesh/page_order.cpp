@@ -180,7 +180,7 @@ private:
 template <int D>
 void PageWriter<D>::order(const Simplex<D> *slots, std::uint32_t end, Handle first,
                           Vertices &vertices, Numbering &numbered, Arena<Link> &border,
-                          const std::uint8_t *fixed) {
+                          const FixedFacets<D> *fixed) {
     const std::size_t facets = std::size_t(end) * (D + 1);
     attributes_ = vertices.attribute_count();
     numbered.clear();

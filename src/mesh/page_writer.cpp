@@ -41,18 +41,19 @@ template <int D> void PageWriter<D>::gather(const Vertices &vertices, const Numb
 }
 
 template <int D>
-void PageWriter<D>::gather_fixed(const Simplex<D> *slots, const std::uint8_t *fixed) {
+void PageWriter<D>::gather_fixed(const Simplex<D> *slots, const FixedFacets<D> *fixed) {
     unsigned all = 0;
-    for (std::size_t s = 0; s < simplices_; ++s) all |= fixed[order_[s].slot];
+    for (std::size_t s = 0; s < simplices_; ++s) all |= fixed[order_[s].slot].bits();
     if (all == 0) return;
+    fixed_width_ = FixedFacets<D>::width * (FixedFacets<D>::from_bits(all).any_soft() ? 2 : 1);
     for (std::size_t s = 0; s < simplices_; ++s) {
         const Simplex<D> &simplex = slots[order_[s].slot];
-        unsigned bits = 0;
+        FixedFacets<D> facets;
         for (int i = 0; i <= D; ++i)
             for (int k = 0; k <= D; ++k)
                 if (corners_[s][i] == to_number(simplex.vertex[k]))
-                    bits |= (fixed[order_[s].slot] >> k & 1u) << i;
-        fixed_.push_back(static_cast<std::uint8_t>(bits));
+                    facets.set(i, fixed[order_[s].slot][k]);
+        fixed_.push_back(static_cast<std::uint8_t>(facets.bits()));
     }
 }
 
@@ -130,7 +131,7 @@ template <int D> std::size_t PageWriter<D>::planned_size() const {
     for (const ColumnPlan &plan : plans_) size += plan.size();
     return size + foreign_plan_.size() + parts_plan_.size() +
            bits_to_bytes(links_.size() * std::bit_width(vertices_ + foreign_.size())) +
-           bits_to_bytes(simplices_ * (D + 1)) + bits_to_bytes(fixed_.size() * (D + 1)) +
+           bits_to_bytes(simplices_ * (D + 1)) + bits_to_bytes(fixed_.size() * fixed_width_) +
            bits_to_bytes(named_.size() * std::bit_width(vertices_));
 }
 
@@ -140,7 +141,8 @@ template <int D> void PageWriter<D>::write(const Key &lower, const Key &upper) {
     header.version = PageHeader::expected_version;
     header.dimension = D;
     header.attributes = static_cast<std::uint8_t>(attributes_);
-    header.fixed = fixed_.empty() ? 0 : 1;
+    header.fixed =
+        static_cast<std::uint8_t>(fixed_.empty() ? 0 : fixed_width_ / FixedFacets<D>::width);
     header.simplices = static_cast<std::uint16_t>(simplices_);
     header.vertices = static_cast<std::uint16_t>(vertices_);
     header.links = static_cast<std::uint16_t>(links_.size());
@@ -171,7 +173,7 @@ template <int D> void PageWriter<D>::write(const Key &lower, const Key &upper) {
     at = foreign_plan_.write_deltas(foreign_.data(), at);
     at = parts_plan_.write_deltas(parts_.data(), at);
     put(link_vertices_, std::bit_width(vertices_ + foreign_.size()));
-    put(fixed_, D + 1);
+    put(fixed_, fixed_width_);
     seal_page(page_, size_);
 }
 

@@ -27,10 +27,9 @@ public:
 
     /// Begins a page of the simplices in the slots [slots, end), whose handles begin with
     /// `first`. Sets `numbered` to the page's vertices and `border` to the inner sides of its
-    /// border, both in the page's order. `fixed` has a bit for each fixed facet of a slot; null if
-    /// none is fixed.
+    /// border, both in the page's order. `fixed` is of the slots; null if no facet is fixed.
     void order(const Simplex<D> *slots, std::uint32_t end, Handle first, Vertices &vertices,
-               Numbering &numbered, Arena<Link> &border, const std::uint8_t *fixed = nullptr);
+               Numbering &numbered, Arena<Link> &border, const FixedFacets<D> *fixed = nullptr);
     /// So many links follow, where facets are untold: in the order of those that turn out to
     /// lie on the border.
     void expect_links(std::size_t links) { links_.resize(links); }
@@ -52,7 +51,7 @@ private:
 
     void gather(const Vertices &vertices, const Numbering &numbered);
     /// In the page's order.
-    void gather_fixed(const Simplex<D> *slots, const std::uint8_t *fixed);
+    void gather_fixed(const Simplex<D> *slots, const FixedFacets<D> *fixed);
     void bound_patches();
     void code_links(const Vertices &vertices, const Numbering &numbered, const bool *on_border);
     std::size_t planned_size() const;
@@ -82,7 +81,8 @@ private:
     Arena<std::uint64_t> parts_;
     ColumnPlan foreign_plan_, parts_plan_;
     Arena<std::uint16_t> link_vertices_;
-    Arena<std::uint8_t> fixed_;  // of the simplices; empty if no facet is fixed
+    Arena<std::uint8_t> fixed_;  // bits of the simplices; empty if no facet is fixed
+    int fixed_width_ = 0;        // of each
     Arena<std::uint64_t> codes_; // that index_ knows
     Arena<std::uint16_t> coded_; // their numbers
     Arena<std::uint16_t> index_; // hash table of codes_

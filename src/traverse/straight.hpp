@@ -63,18 +63,19 @@ inline Way straight_on(Cache<2> &cache, Link corner, const Point<2> &to) {
 }
 
 /// Goes across triangles to the next vertex on the way, which it returns: the point at infinity if
-/// the way leaves the hull. Calls leave(edge) before each edge that it crosses, then
-/// enter(triangle, corner opposite, turn). The turn is 1 if that corner lies left of the way, 0 on
-/// it, -1 right of it. The corner is followed, counterclockwise, by the end of the edge on the
-/// left.
+/// the way leaves the hull. Calls leave(edge) before each edge that it crosses, and goes no further
+/// if that returns false: then it returns the vertex where it began. Else it calls enter(triangle,
+/// corner opposite, turn). The turn is 1 if that corner lies left of the way, 0 on it, -1 right of
+/// it. The corner is followed, counterclockwise, by the end of the edge on the left.
 template <class Leave, class Enter>
 VertexIndex go_across(Cache<2> &cache, const Way &way, const Point<2> &to, Leave leave,
                       Enter enter) {
     Handle h = way.triangle;
     int facet = way.corner;
-    const Point<2> from = cache.point(cache.simplex(h).vertex[facet]);
+    const VertexIndex begin = cache.simplex(h).vertex[facet];
+    const Point<2> from = cache.point(begin);
     for (std::size_t crossed = 1;; ++crossed) {
-        leave(make_link(h, facet));
+        if (!leave(make_link(h, facet))) return begin;
         const Link beyond = cache.cross(h, facet);
         h = link_simplex(beyond);
         const int apex = link_facet(beyond);

@@ -172,6 +172,7 @@ my $wrong = qr/^lines\|Line 7 has a coordinate that is not finite, or a kind tha
 is_found('hurt', "UPDATE hurt_lines SET y = 'NaN' WHERE line = 7", $wrong, 'no number');
 is_found('hurt', "UPDATE hurt_lines SET x = '-Infinity' WHERE line = 7", $wrong, 'no finite number');
 is_found('hurt', "UPDATE hurt_lines SET kind = 'other' WHERE line = 7", $wrong, 'no kind');
+is_found('hurt', "UPDATE hurt_lines SET kind = CASE kind WHEN 'hard' THEN 'soft' ELSE 'hard' END WHERE line = 7", qr/^lines\|Edges are hard or soft, and their lines are not/, 'a line of another kind');
 is_found('hurt', 'UPDATE hurt_lines SET x = x + 1 WHERE line = 7 AND position = 1', qr/^lines\|Line 7 lacks a fixed edge/, 'a point is moved');
 
 # A standby reads lines, and changes none

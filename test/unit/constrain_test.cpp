@@ -33,7 +33,9 @@ bool cross(const Segment &s, const Segment &t) {
            orientation(t.first, t.second, s.first) * orientation(t.first, t.second, s.second) < 0;
 }
 
-/// A mesh with lines of one segment each, which are numbered.
+Fixed kind_of(std::int64_t line) { return line % 3 == 0 ? Fixed::soft : Fixed::hard; }
+
+/// A mesh with lines of one segment each, which are numbered. Every third one is soft.
 class Constrained : public LineSource {
 public:
     Constrained(const std::vector<Point<2>> &points, std::size_t cache_bytes)
@@ -48,7 +50,9 @@ public:
         ends_.clear();
         for (const auto &[line, s] : lines)
             for (const auto &[end, other] : {Segment{s.first, s.second}, {s.second, s.first}})
-                if (end == p) ends_.push_back({line, {other[0], other[1]}});
+                if (end == p)
+                    ends_.push_back(
+                        {line, {other[0], other[1]}, kind_of(line) == Fixed::soft ? 1 : 0});
         return ends_;
     }
 
@@ -57,7 +61,9 @@ public:
         if (s.first == s.second) return false;
         for (const auto &[other, t] : lines)
             if (cross(s, t) && !meet_in_vertex(s, t)) return false;
-        Fixing(mesh.delaunay).fix(s.first, s.second);
+        // Some by funnels.
+        Fixing(mesh.delaunay, line % 2 == 0 ? 256 : 1 + line % 7)
+            .fix(s.first, s.second, kind_of(line));
         lines[line] = s;
         return true;
     }
@@ -87,7 +93,7 @@ public:
     void verify() {
         ASSERT_EQ(mesh.cache.check_invariants(), nullptr);
         std::map<Edge, std::vector<std::pair<std::array<Point<2>, 3>, int>>> sides;
-        std::set<Edge> fixed;
+        std::map<Edge, Fixed> fixed;
         std::set<Point<2>> seen;
         std::int64_t finite = 0;
         for (Key page = first_key; page < end_key;) {
@@ -103,7 +109,9 @@ public:
                     const Edge e = edge(corners[(i + 1) % 3], corners[(i + 2) % 3]);
                     sides[e].push_back({corners, i});
                     seen.insert(corners[i]);
-                    if (mesh.cache.is_fixed(make_link(h, i))) fixed.insert(e);
+                    if (const Fixed how = mesh.cache.fixed(make_link(h, i)); how != Fixed::no) {
+                        ASSERT_EQ(fixed.emplace(e, how).first->second, how);
+                    }
                 }
             });
         }
@@ -120,13 +128,16 @@ public:
         }
         EXPECT_EQ(hull, mesh.delaunay.ghosts());
         EXPECT_EQ(2 * static_cast<std::int64_t>(points.size()) - 2 - hull, finite);
-        std::set<Edge> expected;
+        std::map<Edge, Fixed> expected;
         for (const auto &[line, s] : lines) {
             std::vector<Point<2>> on;
             for (const Point<2> &p : points)
                 if (is_on(s, p)) on.push_back(p);
             std::sort(on.begin(), on.end());
-            for (std::size_t i = 1; i < on.size(); ++i) expected.insert({on[i - 1], on[i]});
+            for (std::size_t i = 1; i < on.size(); ++i) {
+                Fixed &how = expected[{on[i - 1], on[i]}];
+                how = std::max(how, kind_of(line));
+            }
         }
         EXPECT_EQ(fixed, expected);
     }
@@ -265,7 +276,7 @@ TEST_P(ConstrainOf, RefusesCrossings) {
     for (std::int64_t line = 0; line < 40; ++line) {
         const Segment s{any(mesh, random), any(mesh, random)};
         if (mesh.add(line, s) || s.first == s.second) continue;
-        EXPECT_THROW(Fixing(mesh.mesh.delaunay).fix(s.first, s.second), Error);
+        EXPECT_THROW(Fixing(mesh.mesh.delaunay).fix(s.first, s.second, Fixed::hard), Error);
         ++refused;
         break; // what has been fixed before the crossing stays
     }
@@ -287,14 +298,14 @@ TEST(Constrain, StarOfAThousandSegments) {
     mesh.verify();
 }
 
-// What lies beyond a fixed edge is not seen; linear data come back.
-TEST(Constrain, NaturalNeighboursEndAtFixedEdges) {
+// What lies beyond a hard edge is not seen; linear data come back.
+TEST(Constrain, NaturalNeighboursEndAtHardEdges) {
     Random random(21);
     std::vector<Point<2>> points{{0.1, 0.5}, {0.9, 0.5}};
     while (points.size() < 400) points.push_back(even(random));
     Constrained mesh(points, 20 * little);
-    ASSERT_TRUE(mesh.add(0, {points[0], points[1]}));
-    for (std::int64_t line = 1; line < 30; ++line)
+    ASSERT_TRUE(mesh.add(1, {points[0], points[1]}));
+    for (std::int64_t line = 2; line < 30; ++line)
         mesh.add(line, {any_of(mesh.points, random), any_of(mesh.points, random)});
     for (std::int64_t line = 30; line < 130; ++line) { // edges of the mesh already
         const Point<2> p = any_of(mesh.points, random);
@@ -315,7 +326,7 @@ TEST(Constrain, NaturalNeighboursEndAtFixedEdges) {
         ASSERT_EQ(at, unset);
         const Handle h = mesh.mesh.delaunay.locate(p, mesh.mesh.cache.domain().code(p), no_handle);
         if (mesh.mesh.cache.simplex(h).is_ghost()) continue;
-        const bool found = sibson.find(mesh.mesh.cache, h, p);
+        const bool found = sibson.find(mesh.mesh.cache, h, p, true);
         if (i % 10 == 0) {
             EXPECT_FALSE(found);
         }
@@ -327,11 +338,66 @@ TEST(Constrain, NaturalNeighboursEndAtFixedEdges) {
             EXPECT_GE(sibson.weight(n), 0);
             for (int axis = 0; axis < 2; ++axis) mean[axis] += sibson.weight(n) * v[axis];
             for (const auto &[line, s] : mesh.lines)
-                EXPECT_FALSE(sibson.weight(n) > 0 && cross(s, {p, v}));
+                EXPECT_FALSE(kind_of(line) == Fixed::hard && sibson.weight(n) > 0 &&
+                             cross(s, {p, v}));
         }
         for (int axis = 0; axis < 2; ++axis) EXPECT_NEAR(mean[axis], p[axis], 1e-9);
     }
     EXPECT_GT(natural, 2000);
+}
+
+/// The weights of natural neighbours by their places; nothing if there are none.
+std::map<Point<2>, double> natural_neighbours(Constrained &of, const Point<2> &p, bool has_soft) {
+    Delaunay<2> &mesh = of.mesh.delaunay;
+    Cache<2> &cache = of.mesh.cache;
+    Sibson<2> sibson(of.mesh.host());
+    std::map<Point<2>, double> weights;
+    const Handle h = mesh.locate(p, cache.domain().code(p), no_handle);
+    if (!cache.simplex(h).is_ghost() && sibson.find(cache, h, p, has_soft))
+        for (std::size_t n = 0; n < sibson.count(); ++n)
+            weights[cache.point(sibson.vertex(n))] = sibson.weight(n);
+    mesh.finish(mesh.anywhere);
+    return weights;
+}
+
+// They are those of the mesh without soft lines, to the last bit.
+TEST(Constrain, NaturalNeighboursSeeAcrossSoftEdges) {
+    Random random(22);
+    for (const double height : {1.0, 1e-3, 1e-7})
+        for (const bool is_grid : {false, true}) {
+            std::vector<Point<2>> points;
+            for (int i = 0; i < 300; ++i)
+                points.push_back(is_grid ? Point<2>{(i % 20) / 32.0, (i / 20) / 32.0 * height}
+                                         : even(random));
+            for (Point<2> &p : points)
+                if (!is_grid) p[1] *= height;
+            Constrained both(points, 20 * little), hard(points, 20 * little);
+            for (std::int64_t line = 1; line < 120; ++line) {
+                const Segment s{any_of(both.points, random), any_of(both.points, random)};
+                if (both.add(line, s) && kind_of(line) == Fixed::hard) {
+                    ASSERT_TRUE(hard.add(line, s));
+                }
+            }
+            std::size_t natural = 0, soft = 0;
+            for (const auto &[line, s] : both.lines) soft += kind_of(line) == Fixed::soft;
+            ASSERT_GT(soft, 3u);
+            for (int i = 0; i < 1000; ++i) {
+                Point<2> p = even(random);
+                p[1] *= height;
+                if (i % 4 == 0) { // close to a line, or on it
+                    const Segment &s = std::next(both.lines.begin(), i % both.lines.size())->second;
+                    const double t = even(random)[0];
+                    for (int axis = 0; axis < 2; ++axis)
+                        p[axis] = s.first[axis] + t * (s.second[axis] - s.first[axis]);
+                }
+                if (both.points.contains(p)) continue;
+                const auto expected = natural_neighbours(hard, p, false);
+                EXPECT_EQ(natural_neighbours(both, p, true), expected);
+                EXPECT_EQ(natural_neighbours(hard, p, true), expected);
+                natural += !expected.empty();
+            }
+            EXPECT_GT(natural, is_grid ? 100u : 500u);
+        }
 }
 
 TEST(Constrain, EndsMustBeVertices) {
@@ -340,8 +406,8 @@ TEST(Constrain, EndsMustBeVertices) {
     while (points.size() < 100) points.push_back(even(random));
     Constrained mesh(points, 20 * little);
     for (const Point<2> &p : {Point<2>{0.5, 0.5}, {2, 2}, {-1, 0.5}}) {
-        EXPECT_THROW(Fixing(mesh.mesh.delaunay).fix(points[0], p), Error);
-        EXPECT_THROW(Fixing(mesh.mesh.delaunay).fix(p, points[0]), Error);
+        EXPECT_THROW(Fixing(mesh.mesh.delaunay).fix(points[0], p, Fixed::hard), Error);
+        EXPECT_THROW(Fixing(mesh.mesh.delaunay).fix(p, points[0], Fixed::soft), Error);
     }
 }
 

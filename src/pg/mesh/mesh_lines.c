@@ -54,7 +54,7 @@ prepare(MeshLines *lines)
 {
 	/* the point of the same line that comes before or after, if it is in the same part */
 	static const char *const half =
-		"SELECT p.line, o.x, o.y FROM %1$s AS p, LATERAL ("
+		"SELECT p.line, o.x, o.y, p.kind OPERATOR(pg_catalog.=) 'soft' FROM %1$s AS p, LATERAL ("
 		"SELECT n.x, n.y, n.part FROM %1$s AS n WHERE n.line OPERATOR(pg_catalog.=) p.line AND "
 		"n.position OPERATOR(pg_catalog.%2$s) p.position ORDER BY n.position %3$s LIMIT 1) AS o "
 		"WHERE p.x OPERATOR(pg_catalog.=) $1 AND p.y OPERATOR(pg_catalog.=) $2 AND "
@@ -90,6 +90,7 @@ take_ends(MeshLines *lines, const SPITupleTable *rows, uint64 count)
 		for (int axis = 0; axis < 2; axis++)
 			end->other[axis] = DatumGetFloat8(SPI_getbinval(rows->vals[i], rows->tupdesc, axis + 2,
 															&isnull));
+		end->is_soft = DatumGetBool(SPI_getbinval(rows->vals[i], rows->tupdesc, 4, &isnull)) ? 1 : 0;
 	}
 }
 
@@ -164,7 +165,7 @@ typedef struct LastPoint
 
 /* Adds the segments between the rows of one fetch, and the row before it. */
 static void
-add_fetched(Host *host, abacus_segments *segments, double *ends, LastPoint *last)
+add_fetched(Host *host, abacus_segments *segments, abacus_segment *added, LastPoint *last)
 {
 	const SPITupleTable *rows = SPI_tuptable;
 	size_t		count = 0;
@@ -184,17 +185,19 @@ add_fetched(Host *host, abacus_segments *segments, double *ends, LastPoint *last
 														  &isnull));
 		if (last->is_known && point.line == last->line && point.part == last->part)
 		{
-			memcpy(&ends[4 * count], last->at, sizeof(point.at));
-			memcpy(&ends[4 * count + 2], point.at, sizeof(point.at));
+			memcpy(added[count].ends[0], last->at, sizeof(point.at));
+			memcpy(added[count].ends[1], point.at, sizeof(point.at));
+			added[count].is_soft =
+				DatumGetBool(SPI_getbinval(rows->vals[i], rows->tupdesc, 5, &isnull)) ? 1 : 0;
 			count++;
 		}
 		*last = point;
 	}
-	host_run(host, abacus_segments_add, segments, ends, count);
+	host_run(host, abacus_segments_add, segments, added, count);
 }
 
 /*
- * Adds the segments of lines: `query` returns line, x, y and part, in the order of the lines and of
+ * Adds the segments of lines: `query` returns line, x, y, part and whether it is soft, in the order of the lines and of
  * the positions in each. SPI is connected.
  */
 void
@@ -202,7 +205,7 @@ mesh_lines_add(Host *host, abacus_segments *segments, const char *query)
 {
 	SPIParseOpenOptions options = {.cursorOptions = CURSOR_OPT_NO_SCROLL};
 	Portal		portal = SPI_cursor_parse_open(NULL, query, &options);
-	double	   *ends = palloc(ROWS_A_FETCH * 4 * sizeof(double));
+	abacus_segment *added = palloc(ROWS_A_FETCH * sizeof(abacus_segment));
 	LastPoint	last = {false};
 
 	for (;;)
@@ -210,11 +213,11 @@ mesh_lines_add(Host *host, abacus_segments *segments, const char *query)
 		SPI_cursor_fetch(portal, true, ROWS_A_FETCH);
 		if (SPI_processed == 0)
 			break;
-		add_fetched(host, segments, ends, &last);
+		add_fetched(host, segments, added, &last);
 		SPI_freetuptable(SPI_tuptable);
 	}
 	SPI_cursor_close(portal);
-	pfree(ends);
+	pfree(added);
 }
 
 /* Opens an empty collection of segments; *segments must be owned by the host's handle. */
@@ -269,7 +272,7 @@ mesh_lines_fix_waiting(Writer *writer, abacus_build *build, abacus_segments **se
 	mesh_lines_open(writer, segments);
 	SPI_connect();
 	mesh_lines_add(host, *segments,
-				   psprintf("SELECT line, x, y, part FROM %s ORDER BY line, position",
+				   psprintf("SELECT line, x, y, part, kind OPERATOR(pg_catalog.=) 'soft' FROM %s ORDER BY line, position",
 							lines_table_name(lines_table_require(mesh_of(host), MESH_WRITE))));
 	SPI_finish();
 	mesh_lines_fix(writer, build, *segments);

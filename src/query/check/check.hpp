@@ -60,6 +60,7 @@ public:
     std::uint64_t flat() const { return counts_.flat; }
     /// Fixed edges, of a constrained mesh.
     std::uint64_t fixed() const { return counts_.fixed / 2; }
+    std::uint64_t soft() const { return counts_.soft / 2; }
 
 private:
     class Together;

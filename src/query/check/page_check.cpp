@@ -38,7 +38,8 @@ template <int D> void PageCheck<D>::check_simplices() {
     for (int s = 0; s < page_.simplices(); ++s) {
         const bool ghost = page_.is_ghost(s);
         ++(ghost ? counts_.ghosts : counts_.simplices);
-        counts_.fixed += static_cast<unsigned>(std::popcount(page_.fixed(s)));
+        counts_.fixed += static_cast<unsigned>(page_.fixed(s).count());
+        counts_.soft += static_cast<unsigned>(page_.fixed(s).count_soft());
         const std::uint64_t code = code_of(page_, s, domain_);
         // Parts are compared by the topology pass, which has to compute them.
         const Key lowest{code, 0}, highest{code, key_word_end - 1};

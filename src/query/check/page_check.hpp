@@ -21,6 +21,7 @@ public:
         std::uint64_t simplices = 0, ghosts = 0;
         std::uint64_t flat = 0;     ///< of the simplices, in doubles (geometry/flatness.hpp)
         std::uint64_t fixed = 0;    ///< facets that are fixed, on each side
+        std::uint64_t soft = 0;     ///< soft ones among them
         std::uint64_t vertices = 0; ///< of all pages: a vertex on several pages counts for each
 
         Counts &operator+=(const Counts &more) {
@@ -28,6 +29,7 @@ public:
             ghosts += more.ghosts;
             flat += more.flat;
             fixed += more.fixed;
+            soft += more.soft;
             vertices += more.vertices;
             return *this;
         }

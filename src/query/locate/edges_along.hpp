@@ -6,7 +6,7 @@
 
 namespace abacus {
 
-/// Calls visit(a, b, is_fixed) for the vertices at both ends of each edge, in the order from p to
+/// Calls visit(a, b, how) for the vertices at both ends of each edge, in the order from p to
 /// q. False if an end is not a vertex, or an edge is missing, where this stops.
 template <class Visit>
 bool edges_along(Reader<2> &reader, const Point<2> &p, const Point<2> &q, Visit visit) {
@@ -24,8 +24,7 @@ bool edges_along(Reader<2> &reader, const Point<2> &p, const Point<2> &q, Visit 
         const VertexIndex end = vertex[(way.corner + 1) % 3];
         const Point<2> next = cache.point(end);
         if (is_behind(at, q, next)) return false;
-        visit(vertex[way.corner], end,
-              cache.is_fixed(make_link(way.triangle, (way.corner + 2) % 3)));
+        visit(vertex[way.corner], end, cache.fixed(make_link(way.triangle, (way.corner + 2) % 3)));
         at = next;
     }
     return true;

@@ -75,10 +75,9 @@ public:
     bool is_convex() const { return convex_; }
     /// Whether the mesh is Delaunay: nearest vertices are neighbours.
     bool is_delaunay() const { return abacus_is_delaunay(facts_.standing) != 0; }
-    /// Whether the mesh has lines, all of them hard.
-    bool has_only_hard_lines() const {
-        return facts_.standing == ABACUS_CONSTRAINED && facts_.census.soft_lines == 0;
-    }
+    /// Whether the mesh is a triangulation of its points and lines, if it has any.
+    bool is_own() const { return abacus_is_own(facts_.standing) != 0; }
+    bool has_soft_lines() const { return facts_.census.soft_lines > 0; }
     bool is_empty() const { return size_ == 0; }
     /// Simplices and ghosts.
     std::uint64_t size() const { return size_; }

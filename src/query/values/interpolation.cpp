@@ -9,14 +9,8 @@ namespace abacus {
 
 namespace {
 
-/// Throws if they are not known: beside soft lines, which do not end a zone, but hide from a circle
-/// what is in it.
 template <int D> void require_natural_neighbours(const Reader<D> &reader) {
-    if (reader.has_only_hard_lines()) return;
-    if (reader.is_convex() && !reader.is_delaunay())
-        throw Error(ABACUS_ERROR_UNSUPPORTED,
-                    "natural neighbours of a mesh with soft lines are not supported", fixed_edges,
-                    "Use the method linear, or hard lines.");
+    if (reader.is_own()) return;
     require_delaunay(reader, "natural neighbours need",
                      "Use the method linear, or load the mesh with retriangulate => true.");
 }
@@ -57,7 +51,7 @@ bool Interpolation<D>::weigh_natural(Reader<D> &reader, const abacus_interpolati
             add_vertex(v, 1);
             return true;
         }
-    if (!sibson_.find(cache, h, p)) return weigh_corners(reader, what, p);
+    if (!sibson_.find(cache, h, p, reader.has_soft_lines())) return weigh_corners(reader, what, p);
     for (std::size_t i = 0; i < sibson_.count(); ++i)
         add_vertex(sibson_.vertex(i), sibson_.weight(i));
     return true;

@@ -41,18 +41,18 @@ template <int D> bool is_on_facet(const Cache<D> &cache, Handle h, int facet, co
 } // namespace
 
 template <int D> bool Sibson<D>::find_zone(Cache<D> &cache, Handle h, const Point<D> &p) {
-    zone_.clear();
+    met_.clear();
     beyond_.clear();
     marks_.set(h, Marks::inside);
-    zone_.push_back(h);
+    met_.push_back(h);
     bool is_on_hull = false;
-    for (std::size_t n = 0; n < zone_.size() && !is_on_hull; ++n) {
+    for (std::size_t n = 0; n < met_.size() && !is_on_hull; ++n) {
         if (n % 1024 == 1023) cache.poll();
         for (int i = 0; i <= D; ++i) {
-            const Handle beyond = link_simplex(cache.cross(zone_[n], i));
+            const Handle beyond = link_simplex(cache.cross(met_[n], i));
             beyond_.push_back(beyond);
-            if (cache.is_fixed(make_link(zone_[n], i))) [[unlikely]] {
-                is_on_hull = is_on_hull || is_on_facet<D>(cache, zone_[n], i, p);
+            if (cache.is_fixed(make_link(met_[n], i))) [[unlikely]] {
+                is_on_hull = is_on_hull || is_on_facet<D>(cache, met_[n], i, p);
                 beyond_.back() = no_handle; // though it may be in the zone, too
                 continue;
             }
@@ -63,18 +63,40 @@ template <int D> bool Sibson<D>::find_zone(Cache<D> &cache, Handle h, const Poin
                 s.is_ghost() ? side_of_ghost<D>(corners, p) : side_of_simplex<D>(corners, p);
             if (side != Side::inside) continue;
             marks_.set(beyond, Marks::inside);
-            zone_.push_back(beyond);
+            met_.push_back(beyond);
             is_on_hull = is_on_hull || s.is_ghost();
         }
     }
-    for (const Handle met : zone_) marks_.set(met, Marks::none);
+    for (const Handle met : met_) marks_.set(met, Marks::none);
+    if (!is_on_hull) describe_zone(cache);
     return !is_on_hull;
+}
+
+template <int D> void Sibson<D>::describe_zone(Cache<D> &cache) {
+    places_.clear();
+    for (std::size_t n = 0; n < met_.size(); ++n)
+        places_.push_back({met_[n], static_cast<std::uint32_t>(n)});
+    std::sort(places_.begin(), places_.end(),
+              [](const Place &a, const Place &b) { return a.simplex < b.simplex; });
+    zone_.clear();
+    for (std::size_t n = 0; n < met_.size(); ++n) {
+        ZoneSimplex<D> simplex{cache.simplex(met_[n]).vertex, {}};
+        for (int i = 0; i <= D; ++i) {
+            const Handle beyond = beyond_[n * (D + 1) + i];
+            const auto *const at =
+                std::lower_bound(places_.begin(), places_.end(), beyond,
+                                 [](const Place &place, Handle h) { return place.simplex < h; });
+            const bool is_inner = at != places_.end() && at->simplex == beyond;
+            simplex.beyond[i] = is_inner ? at->number : ZoneSimplex<D>::not_seen;
+        }
+        zone_.push_back(simplex);
+    }
 }
 
 template <int D> void Sibson<D>::see(Cache<D> &cache, const Point<D> &p) {
     numbers_.clear();
-    for (const Handle h : zone_)
-        for (const VertexIndex v : cache.simplex(h).vertex) cache.number(numbers_, v);
+    for (const ZoneSimplex<D> &simplex : zone_)
+        for (const VertexIndex v : simplex.vertex) cache.number(numbers_, v);
     cache.sort_by_place(numbers_);
     const auto extent = [&](double part) {
         double most = 0;
@@ -108,8 +130,7 @@ template <int D> void Sibson<D>::order_zone(Cache<D> &cache) {
     for (std::size_t n = 0; n < zone_.size(); ++n) {
         std::array<std::pair<std::uint32_t, std::uint8_t>, D + 1> corners;
         for (int i = 0; i <= D; ++i)
-            corners[i] = {cache.number(numbers_, cache.simplex(zone_[n]).vertex[i]),
-                          static_cast<std::uint8_t>(i)};
+            corners[i] = {cache.number(numbers_, zone_[n].vertex[i]), static_cast<std::uint8_t>(i)};
         std::sort(corners.begin(), corners.end());
         Member &member = members_[n];
         for (int i = 0; i <= D; ++i) {
@@ -120,11 +141,9 @@ template <int D> void Sibson<D>::order_zone(Cache<D> &cache) {
     }
     std::sort(members_.begin(), members_.end(),
               [](const Member &a, const Member &b) { return a.number < b.number; });
-    sorted_.resize(zone_.size());
+    ranks_.resize(zone_.size());
     for (std::size_t n = 0; n < zone_.size(); ++n)
-        sorted_[n] = {zone_[members_[n].found], static_cast<std::uint32_t>(n)};
-    std::sort(sorted_.begin(), sorted_.end(),
-              [](const Place &a, const Place &b) { return a.simplex < b.simplex; });
+        ranks_[members_[n].found] = static_cast<std::uint32_t>(n);
 }
 
 /// The centre of the sphere through n neighbours, and through p if n is D.
@@ -159,8 +178,9 @@ template <int D> Point<D> Sibson<D>::centre(const std::uint32_t *numbers, int n)
 }
 
 template <int D>
-std::array<std::uint32_t, D> Sibson<D>::facet_of(Cache<D> &cache, Handle h, int facet) {
-    const auto &vertex = cache.simplex(h).vertex;
+std::array<std::uint32_t, D> Sibson<D>::facet_of(Cache<D> &cache, const ZoneSimplex<D> &s,
+                                                 int facet) {
+    const auto &vertex = s.vertex;
     const auto number = [&](int corner) { return cache.number(numbers_, vertex[corner]); };
     if constexpr (D == 2) {
         return {number((facet + 1) % 3), number((facet + 2) % 3)};
@@ -196,16 +216,14 @@ void Sibson<D>::add_side(const std::array<std::uint32_t, D> &facet, const Point<
 
 template <int D> void Sibson<D>::add_simplex(Cache<D> &cache, std::size_t n) {
     const Member &member = members_[n];
+    const ZoneSimplex<D> &simplex = zone_[member.found];
     for (const std::uint8_t i : member.corner) {
-        const Handle beyond = beyond_[member.found * std::size_t{D + 1} + i];
-        const auto *const at =
-            std::lower_bound(sorted_.begin(), sorted_.end(), beyond,
-                             [](const Place &place, Handle h) { return place.simplex < h; });
-        const bool is_inner = at != sorted_.end() && at->simplex == beyond;
-        if (is_inner && at->number < n) continue; // the other simplex adds it
-        const std::array<std::uint32_t, D> facet = facet_of(cache, zone_[member.found], i);
+        const bool is_inner = simplex.beyond[i] != ZoneSimplex<D>::not_seen;
+        const std::uint32_t beyond = is_inner ? ranks_[simplex.beyond[i]] : 0;
+        if (is_inner && beyond < n) continue; // the other simplex adds it
+        const std::array<std::uint32_t, D> facet = facet_of(cache, simplex, i);
         if (is_inner) {
-            add_side(facet, centres_[n], centres_[at->number]);
+            add_side(facet, centres_[n], centres_[beyond]);
         } else {
             rim_.push_back({facet, centre(facet.data(), D)});
             add_side(facet, centres_[n], rim_.back().centre);
@@ -262,8 +280,13 @@ template <int D> bool Sibson<D>::normalize() {
     return dot<D>(mean, mean) < 1e-18; // seen_ is about 1 in size
 }
 
-template <int D> bool Sibson<D>::find(Cache<D> &cache, Handle h, const Point<D> &p) {
-    if (!find_zone(cache, h, p)) return false;
+template <int D>
+bool Sibson<D>::find(Cache<D> &cache, Handle h, const Point<D> &p, bool has_soft_lines) {
+    bool is_found = false;
+    if constexpr (D == 2)
+        if (has_soft_lines) is_found = soft_zone_.find(cache, h, p, zone_);
+    if (!has_soft_lines) is_found = find_zone(cache, h, p);
+    if (!is_found) return false;
     see(cache, p);
     order_zone(cache);
     centres_.clear();

@@ -18,8 +18,9 @@
 // the edges of that facet. The facets are those between two simplices of the zone, those on its
 // rim, and those that p would form with the ridges of the rim.
 //
-// In a mesh with lines the zone ends at fixed edges, as a cell's share does at the hull: what lies
-// beyond is not seen, and the cell of p goes on there as if nothing did.
+// In a mesh with lines the zone ends at hard edges, as a cell's share does at the hull: what lies
+// beyond is not seen, and the cell of p goes on there as if nothing did. Soft edges do not matter:
+// see soft_zone.hpp.
 //
 // The predicates of the triangulation find the zone, so it is star-shaped around p, as when p is
 // inserted.
@@ -31,19 +32,22 @@
 
 #include "delaunay/ridges.hpp"
 #include "query/locate/reader.hpp"
+#include "query/values/soft_zone.hpp"
+#include "query/values/zone_simplex.hpp"
 
 namespace abacus {
 
 template <int D> class Sibson {
 public:
     explicit Sibson(const Host &host)
-        : marks_(host), zone_(host), beyond_(host), members_(host), sorted_(host), numbers_(host),
-          seen_(host), shares_(host), centres_(host), rim_(host), ridges_(host) {}
+        : soft_zone_(host), marks_(host), met_(host), beyond_(host), places_(host), zone_(host),
+          members_(host), ranks_(host), numbers_(host), seen_(host), shares_(host), centres_(host),
+          rim_(host), ridges_(host) {}
 
     /// Finds the natural neighbours of p, which lies in the closure of a finite simplex of a
     /// Delaunay mesh, constrained or not, and is not a vertex. False if p is on the hull or on a
-    /// fixed edge, where cells are unbounded, or if doubles cannot represent the weights.
-    bool find(Cache<D> &cache, Handle h, const Point<D> &p);
+    /// hard edge, where cells are unbounded, or if doubles cannot represent the weights.
+    bool find(Cache<D> &cache, Handle h, const Point<D> &p, bool has_soft_lines);
 
     /// The result of find(): the neighbours and their weights, which sum to 1.
     std::size_t count() const { return numbers_.size(); }
@@ -59,24 +63,26 @@ private:
     };
 
     /// A simplex of the zone: its corners by their numbers, the least first, and which corner of
-    /// the stored simplex each is.
+    /// the simplex each is.
     struct Member {
         std::array<std::uint32_t, D + 1> number;
         std::array<std::uint8_t, D + 1> corner;
         std::uint32_t found; ///< its place in zone_
     };
 
-    /// A simplex of the zone, and its number among the members.
+    /// A simplex of the cache, and its number in the zone.
     struct Place {
         Handle simplex;
         std::uint32_t number;
     };
 
     bool find_zone(Cache<D> &cache, Handle h, const Point<D> &p);
+    /// Describes the zone that has been met in the cache.
+    void describe_zone(Cache<D> &cache);
     void see(Cache<D> &cache, const Point<D> &p);
     void order_zone(Cache<D> &cache);
     /// The facet of a simplex as in RimFacet, its least neighbour first.
-    std::array<std::uint32_t, D> facet_of(Cache<D> &cache, Handle h, int facet);
+    std::array<std::uint32_t, D> facet_of(Cache<D> &cache, const ZoneSimplex<D> &s, int facet);
     /// Adds the contributions across the facets of the n-th member.
     void add_simplex(Cache<D> &cache, std::size_t n);
     /// Adds a side, from circumcentre `from` to `to`, of the dual of a facet.
@@ -87,11 +93,14 @@ private:
     bool normalize();
     Point<D> centre(const std::uint32_t *numbers, int n) const;
 
+    SoftZone soft_zone_;
     Marks marks_;
-    Arena<Handle> zone_;    // in the order of discovery
-    Arena<Handle> beyond_;  // D + 1 a simplex of the zone, across its facets
-    Arena<Member> members_; // the zone in order
-    Arena<Place> sorted_;   // the zone by handles
+    Arena<Handle> met_;    // the zone in the cache, in the order of discovery
+    Arena<Handle> beyond_; // D + 1 for each, across its facets
+    Arena<Place> places_;  // of these by handles
+    Arena<ZoneSimplex<D>> zone_;
+    Arena<Member> members_;      // the zone in order
+    Arena<std::uint32_t> ranks_; // of the zone: the numbers of the members
     typename VertexHeap<D>::Numbering numbers_;
     Arena<Point<D>> seen_; // the neighbours from p, scaled
     Arena<double> shares_;

@@ -153,10 +153,13 @@ static void
 check_lines(Checking *checking, Oid mesh, const abacus_facts *facts)
 {
 	char	   *fault;
+	uint64		fixed,
+				soft;
 
 	if (facts->standing != ABACUS_CONSTRAINED || facts->census.lines_wait > 0)
 		return;
-	fault = fixed_edges_fault(mesh, abacus_check_fixed(checking->host->handle));
+	fixed = abacus_check_fixed(checking->host->handle, &soft);
+	fault = fixed_edges_fault(mesh, fixed, soft);
 	if (fault != NULL)
 		note_fault(checking, "lines", header_key, fault);
 }

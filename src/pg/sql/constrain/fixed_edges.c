@@ -54,6 +54,7 @@ typedef struct EdgeRows
 	bool		checks;			/* looks for edges that are missing or free: no error then */
 	bool		is_broken;		/* there is one, ... */
 	int64		broken;			/* ... of this line */
+	bool		has_wrong_kind; /* an edge of a hard line is soft */
 } EdgeRows;
 
 static void
@@ -66,18 +67,20 @@ note_broken(EdgeRows *edges)
 
 /* Called by the core. */
 static abacus_host_status
-put_edge(void *context, const int64_t ids[2], const double ends[2][2], int is_fixed)
+put_edge(void *context, const int64_t ids[2], const double ends[2][2], abacus_edge_kind kind)
 {
 	EdgeRows   *edges = context;
 	bool		in_order = ids[0] <= ids[1];
 	Datum		values[EDGE_COLUMNS];
 	bool		isnull[EDGE_COLUMNS] = {false};
 
-	if (!is_fixed)
+	if (kind == ABACUS_FREE_EDGE)
 	{
 		note_broken(edges);
 		return ABACUS_HOST_OK;
 	}
+	if (edges->is_hard && kind != ABACUS_HARD_EDGE)
+		edges->has_wrong_kind = true;
 	values[EDGE_V0] = Int64GetDatum(ids[in_order ? 0 : 1]);
 	values[EDGE_V1] = Int64GetDatum(ids[in_order ? 1 : 0]);
 	for (int i = 0; i < 4; i++)
@@ -201,12 +204,12 @@ read_window(Reader *reader, const abacus_window *window, double max_edge)
 }
 
 /*
- * Looks for a fault of the lines of a sound mesh, which has so many fixed edges: values that no line
- * has, a line without one of its edges, fixed edges that belong to no line, lines that are not
- * counted. Returns what is wrong, or NULL.
+ * Looks for a fault of the lines of a sound mesh, which has so many fixed edges, and so many soft ones among them:
+ * values that no line has, a line without one of its edges, fixed edges that belong to no line or to
+ * lines of another kind, lines that are not counted. Returns what is wrong, or NULL.
  */
 char *
-fixed_edges_fault(Oid mesh, uint64 fixed)
+fixed_edges_fault(Oid mesh, uint64 fixed, uint64 soft)
 {
 	EdgeRows	edges = {.checks = true};
 	const abacus_census *census;
@@ -215,8 +218,8 @@ fixed_edges_fault(Oid mesh, uint64 fixed)
 	char	   *fault = NULL;
 	MemoryContext memory = CurrentMemoryContext;
 	abacus_window whole = {.kind = ABACUS_NO_WINDOW};
-	Datum		counts[2];
-	bool		isnull[2];
+	Datum		counts[3];
+	bool		isnull[3];
 	int			level;
 
 	table_close(heap, NoLock);
@@ -240,9 +243,10 @@ fixed_edges_fault(Oid mesh, uint64 fixed)
 	}
 	add_lines(&edges, table);
 	named_rows_register(edges.rows);
-	query_first(psprintf("SELECT (SELECT count(*) FROM (SELECT DISTINCT v0, v1, x0, y0, x1, y1 FROM "
-						 EDGES_ON_LINES ") AS e), (SELECT count(DISTINCT line) FROM %s)", table),
-				counts, isnull, 2);
+	query_first(psprintf("SELECT count(*), count(*) FILTER (WHERE NOT is_hard), (SELECT count(DISTINCT line) FROM %s) "
+						 "FROM (SELECT bool_or(is_hard) AS is_hard FROM " EDGES_ON_LINES
+						 " GROUP BY v0, v1, x0, y0, x1, y1) AS e", table),
+				counts, isnull, 3);
 	plain_names_end(level);
 	named_rows_free(edges.rows);
 	if (edges.is_broken)
@@ -250,7 +254,9 @@ fixed_edges_fault(Oid mesh, uint64 fixed)
 													 edges.broken));
 	else if ((uint64) DatumGetInt64(counts[0]) != fixed)
 		fault = MemoryContextStrdup(memory, "Edges are fixed that belong to no line.");
-	else if ((uint64) DatumGetInt64(counts[1]) != census->lines)
+	else if (edges.has_wrong_kind || (uint64) DatumGetInt64(counts[1]) != soft)
+		fault = MemoryContextStrdup(memory, "Edges are hard or soft, and their lines are not.");
+	else if ((uint64) DatumGetInt64(counts[2]) != census->lines)
 		fault = MemoryContextStrdup(memory, "The header counts more or fewer lines than there are.");
 	SPI_finish();
 	return fault;

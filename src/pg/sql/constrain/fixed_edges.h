@@ -10,6 +10,6 @@
 
 extern void fixed_edges_put(Reader *reader, const abacus_window *window, double max_edge, bool with_ends,
 							ReturnSetInfo *set);
-extern char *fixed_edges_fault(Oid mesh, uint64 fixed);
+extern char *fixed_edges_fault(Oid mesh, uint64 fixed, uint64 soft);
 
 #endif

@@ -72,7 +72,7 @@ new_lines_delete(Change *change, const char *table, const char *ids, int64 *soft
 		return 0;
 	mesh_lines_open(&change->writer, &change->freed);
 	mesh_lines_add(change->writer.host, change->freed,
-				   psprintf("SELECT l.line, l.x, l.y, l.part FROM %s AS l WHERE l.line IN (%s) "
+				   psprintf("SELECT l.line, l.x, l.y, l.part, l.kind OPERATOR(pg_catalog.=) 'soft' FROM %s AS l WHERE l.line IN (%s) "
 							"ORDER BY l.line, l.position", table, ids));
 	query_run(psprintf("DELETE FROM %s AS l WHERE l.line IN (%s)", table, ids));
 	return (uint64) DatumGetInt64(counts[0]);
@@ -214,7 +214,7 @@ tell_of_waiting(const Change *change)
 
 /* Fixes the edges of the new lines, and frees those of lines that they have replaced. */
 static void
-change_edges(Change *change)
+change_edges(Change *change, const char *kind)
 {
 	abacus_census *census = &change->writer.header->facts.census;
 	bool		fixed = census->lines_wait == 0;
@@ -225,7 +225,8 @@ change_edges(Change *change)
 		return;
 	mesh_lines_open(&change->writer, &change->fixed);
 	mesh_lines_add(change->writer.host, change->fixed,
-				   "SELECT line, x, y, part FROM " LINE_POINTS " ORDER BY line, position");
+				   psprintf("SELECT line, x, y, part, %s FROM " LINE_POINTS " ORDER BY line, position",
+							strcmp(kind, "soft") == 0 ? "true" : "false"));
 	change_fix(change);
 }
 
@@ -265,7 +266,7 @@ add_lines(Change *change, const NewLines *lines, const char *kind, ExistingLines
 	change_lines(change, DatumGetInt64(count) - (int64) replaced,
 				 (strcmp(kind, "soft") == 0 ? DatumGetInt64(count) : 0) - soft);
 	insert_points(change);
-	change_edges(change);
+	change_edges(change, kind);
 	plain_names_end(level);
 	named_rows_free(points);
 	return (uint64) DatumGetInt64(count);
