@@ -254,6 +254,13 @@ mesh_lines_fix(Writer *writer, abacus_build *build, abacus_segments *segments)
 	host_leave(host, status);
 }
 
+/* Whether lines wait that could be fixed. */
+static bool
+may_fix_waiting(const abacus_census *census)
+{
+	return census->lines_wait > 0 && census->vertices > 0 && census->inserted >= census->staged;
+}
+
 /*
  * Fixes the edges of all lines, if lines wait and no point does any more. *segments is NULL, and
  * owned by the host's handle.
@@ -264,7 +271,7 @@ mesh_lines_fix_waiting(Writer *writer, abacus_build *build, abacus_segments **se
 	Host	   *host = writer->host;
 	abacus_census *census = &writer->header->facts.census;
 
-	if (census->lines_wait == 0 || census->vertices == 0 || census->inserted < census->staged)
+	if (!may_fix_waiting(census))
 		return;
 	mesh_lines_open(writer, segments);
 	SPI_connect();
@@ -276,6 +283,40 @@ mesh_lines_fix_waiting(Writer *writer, abacus_build *build, abacus_segments **se
 	abacus_segments_close(*segments);
 	*segments = NULL;
 	census->lines_wait = 0;
+}
+
+/* The same when other lines have gone. If some of those that wait cross, they go on waiting. */
+void
+mesh_lines_fix_left(Writer *writer, abacus_build *build, abacus_segments **segments)
+{
+	MeshBuild	changed = {writer->host, build};
+
+	if (may_fix_waiting(&writer->header->facts.census) &&
+		!line_crossings_any(writer, is_vertex, &changed))
+		mesh_lines_fix_waiting(writer, build, segments);
+}
+
+/* Why lines of the mesh wait, if any do. */
+void
+mesh_lines_notice_waiting(const Writer *writer)
+{
+	const abacus_census *census = &writer->header->facts.census;
+	const char *mesh = RelationGetRelationName(mesh_of(writer->host));
+
+	if (census->lines_wait == 0)
+		return;
+	if (may_fix_waiting(census))
+		ereport(NOTICE,
+				(errmsg("lines of mesh \"%s\" wait, since some of them cross", mesh),
+				 errhint("Find the crossings with abacus_crossings(). The edges of lines are fixed as soon as "
+						 "abacus_unconstrain() has removed those that cross, or vertices are inserted there.")));
+	else
+		ereport(NOTICE,
+				(errmsg("lines of mesh \"%s\" wait for points", mesh),
+				 errdetail(census->vertices == 0 ? "The mesh has no triangles yet."
+						   : "Some points of the mesh have not been inserted yet."),
+				 errhint("Their edges are fixed as soon as abacus_build() or abacus_insert() has inserted all "
+						 "points.")));
 }
 
 /*
