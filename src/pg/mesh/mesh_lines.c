@@ -52,17 +52,8 @@ mesh_of(const Host *host)
 static void
 prepare(MeshLines *lines)
 {
-	/* the point of the same line that comes before or after, if it is in the same part */
-	static const char *const half =
-		"SELECT p.line, o.x, o.y FROM %1$s AS p, LATERAL ("
-		"SELECT n.x, n.y, n.part FROM %1$s AS n WHERE n.line OPERATOR(pg_catalog.=) p.line AND "
-		"n.position OPERATOR(pg_catalog.%2$s) p.position ORDER BY n.position %3$s LIMIT 1) AS o "
-		"WHERE p.x OPERATOR(pg_catalog.=) $1 AND p.y OPERATOR(pg_catalog.=) $2 AND "
-		"COALESCE(o.part, 0) OPERATOR(pg_catalog.=) COALESCE(p.part, 0)";
 	Oid			types[] = {FLOAT8OID, FLOAT8OID};
-	char	   *table = lines_table_name(lines_table_require(mesh_of(lines->host), MESH_WRITE));
-	char	   *query = psprintf("%s UNION ALL %s", psprintf(half, table, "<", "DESC"),
-								 psprintf(half, table, ">", "ASC"));
+	char	   *query = lines_table_segments_at(lines_table_require(mesh_of(lines->host), MESH_WRITE));
 
 	lines->plan = SPI_prepare_cursor(query, lengthof(types), types, CURSOR_OPT_GENERIC_PLAN);
 	if (lines->plan == NULL || SPI_keepplan(lines->plan) != 0)
