@@ -4,12 +4,16 @@ its report. Without crossings the mesh must be CGAL's constrained triangulation,
 them, as exact arithmetic finds them, and nothing may change; with a corner at each crossing they are then accepted."""
 import fractions
 import itertools
+import sys
 import unittest
 
 import numpy
 
 import abacus
-from constrained_test import canonical, ours, theirs
+
+sys.path.append(str(abacus.REPOSITORY / "scripts"))
+import psql_session  # noqa: E402
+from constrained_test import canonical, ours, theirs  # noqa: E402
 
 
 def ring(n, first=0):
@@ -162,6 +166,27 @@ def crossings(points, lines):
 
 
 class Published(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        """One session, since a psql for each of a thousand statements takes longer than they do."""
+        cls.session, cls.psql = psql_session.Session(), staticmethod(abacus.psql)
+        abacus.psql = cls.in_session
+
+    @classmethod
+    def tearDownClass(cls):
+        abacus.psql = cls.psql
+        cls.session.close()
+
+    @classmethod
+    def in_session(cls, sql, sent=""):
+        if sent:
+            return cls.psql(sql, sent)
+        try:
+            printed = cls.session.run(sql + ";")
+            return printed + "\n" if printed else ""
+        except psql_session.Failure as failure:
+            raise abacus.Refused(str(failure)) from failure
+
     def rows(self, points, lines, ids=True):
         """Rows of lines as SQL: with ids that count from 1, or with places alone."""
         return ", ".join(f"({n}, {k}, {i + 1 if ids else 'NULL'}::bigint, {points[i][0]!r}::float8, {points[i][1]!r}::float8)"
