@@ -124,8 +124,8 @@ class CrossingLines(unittest.TestCase):
         self.assertEqual(abacus.rows("SELECT count(DISTINCT line) FROM abacus_lines('ground')"),
                          abacus.rows("SELECT (SELECT count(*) FROM contours) + (SELECT count(*) FROM roads)"))
         # nothing else about a contour has changed
-        self.assertEqual(abacus.rows(f"""SELECT line FROM abacus_lines('ground') JOIN abacus_vertices('ground') AS v USING (x, y) JOIN contours AS c ON c.id = line
-            WHERE line < {FIRST_ROAD} AND attributes[1] <> ST_Z(ST_StartPoint(c.geom)) LIMIT 1"""), [])
+        self.assertEqual(abacus.rows("""SELECT count(*) FROM abacus_lines('ground') JOIN abacus_vertices('ground') AS v USING (x, y)
+            JOIN (SELECT id AS line, ST_Z(ST_StartPoint(geom)) AS level FROM contours OFFSET 0) AS c USING (line) WHERE attributes[1] <> level"""), [["0"]])
 
     def test_noded_by_postgis(self):
         """ST_Node gives most crossings a height that no contour has. Where it leaves two at one place, the error names both."""
