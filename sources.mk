@@ -331,6 +331,7 @@ PG_SOURCES += src/pg/sql/build/fn_update.c
 PG_SOURCES += src/pg/sql/check/fn_check.c
 PG_SOURCES += src/pg/sql/check/fn_stats.c
 PG_SOURCES += src/pg/sql/constrain/fixed_edges.c
+PG_SOURCES += src/pg/sql/constrain/fixed_window.c
 PG_SOURCES += src/pg/sql/constrain/fn_constrain.c
 PG_SOURCES += src/pg/sql/constrain/fn_crossings.c
 PG_SOURCES += src/pg/sql/constrain/fn_lines.c

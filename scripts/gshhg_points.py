@@ -1,10 +1,12 @@
 #!/usr/bin/python3
-"""Shorelines, borders and rivers of the world as a binary COPY stream.
+"""Shorelines, borders and rivers of the world, and the lines that they are, as a binary COPY stream.
 
 Reads the binned GSHHG files of the Debian packages gmt-gshhg-full (resolution
 f) and gmt-gshhg-high (h) and writes rows (id bigint, lon float8, lat float8)
 for `COPY points FROM STDIN (FORMAT binary)` to standard output; or, asked for
-`raw`, the records that the programs of bench/comparators read.
+`raw`, the records that the programs of bench/comparators read; or, asked for
+`lines`, rows (line bigint, position bigint, point bigint): a line is a stretch
+of a shore, border or river within a bin, and `point` is the id of a point.
 
 A bin is a square of a whole number of degrees; bins run eastward from
 Greenwich and southward from the pole. A point is two unsigned 16-bit fractions
@@ -24,13 +26,17 @@ ROW = np.dtype([("fields", ">i2"),
                 ("id_bytes", ">i4"), ("id", ">i8"),
                 ("lon_bytes", ">i4"), ("lon", ">f8"),
                 ("lat_bytes", ">i4"), ("lat", ">f8")])
+LINE_ROW = np.dtype([("fields", ">i2"),
+                     ("line_bytes", ">i4"), ("line", ">i8"),
+                     ("position_bytes", ">i4"), ("position", ">i8"),
+                     ("point_bytes", ">i4"), ("point", ">i8")])
 RECORD = np.dtype([("id", "<i8"), ("lon", "<f8"), ("lat", "<f8")])
 HEADER = b"PGCOPY\n\xff\r\n\0" + bytes(8)
 TRAILER = b"\xff\xff"
 
 
-def points_of(path):
-    """Longitudes (-180 to 180) and latitudes of one file, in file order."""
+def contents_of(path):
+    """Longitudes (-180 to 180) and latitudes of one file, in file order, and the number of the first point of each line."""
     with netCDF4.Dataset(path) as data:
         data.set_auto_maskandscale(False)
         degrees = int(data["Bin_size_in_minutes"][0]) / 60
@@ -45,30 +51,39 @@ def points_of(path):
     west = (bins % columns) * degrees
     west[west >= 180] -= 360
     south = 90 - (bins // columns + 1) * degrees
-    return west + east * (degrees / 65535), south + north * (degrees / 65535)
+    return west + east * (degrees / 65535), south + north * (degrees / 65535), first_point
+
+
+def fill(rows, **columns):
+    """Sets columns of records, and the lengths of those that have one."""
+    for name, values in columns.items():
+        rows[name] = values
+        if name + "_bytes" in rows.dtype.names:
+            rows["fields"] = 3
+            rows[name + "_bytes"] = 8
+    return rows
 
 
 def main():
     resolution, form = (sys.argv[1:] + ["f", "copy"][len(sys.argv) - 1:])[:2]
-    if resolution not in ("f", "h") or form not in ("copy", "raw") or len(sys.argv) > 3:
-        sys.exit("usage: gshhg_points.py [f|h [copy|raw]]")
+    if resolution not in ("f", "h") or form not in ("copy", "raw", "lines") or len(sys.argv) > 3:
+        sys.exit("usage: gshhg_points.py [f|h [copy|raw|lines]]")
     out = sys.stdout.buffer
-    if form == "copy":
+    if form != "raw":
         out.write(HEADER)
-    count = 0
+    count = lines = 0
     for kind in KINDS:
-        lon, lat = points_of(f"{FOLDER}/binned_{kind}_{resolution}.nc")
-        rows = np.empty(len(lon), ROW if form == "copy" else RECORD)
-        if form == "copy":
-            rows["fields"] = 3
-            for field in ("id", "lon", "lat"):
-                rows[field + "_bytes"] = 8
-        rows["id"] = np.arange(count + 1, count + 1 + len(lon))
-        rows["lon"] = lon
-        rows["lat"] = lat
+        lon, lat, first = contents_of(f"{FOLDER}/binned_{kind}_{resolution}.nc")
+        ids = np.arange(count + 1, count + 1 + len(lon))
+        if form == "lines":
+            line = np.repeat(np.arange(len(first)), np.diff(np.append(first, len(lon))))
+            rows = fill(np.empty(len(lon), LINE_ROW), line=line + lines + 1, position=ids - count - first[line], point=ids)
+        else:
+            rows = fill(np.empty(len(lon), ROW if form == "copy" else RECORD), id=ids, lon=lon, lat=lat)
         out.write(rows.data)
         count += len(lon)
-    if form == "copy":
+        lines += len(first)
+    if form != "raw":
         out.write(TRAILER)
 
 

@@ -162,5 +162,5 @@ oracle_tests() {
 
 # Those that have more points and more settings to compare.
 large_oracle_tests() {
-    ABACUS_LARGE=1 oracle_tests constrained_test.py
+    ABACUS_LARGE=1 oracle_tests constrained_test.py && ABACUS_LARGE=1 oracle_tests crossing_lines_test.py
 }

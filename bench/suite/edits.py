@@ -160,20 +160,24 @@ class Edits:
                      " FROM queue WHERE NOT comes AND number = %s', nextval('next_victim')));")
 
     def latency(self, change, statement):
-        with tempfile.TemporaryDirectory() as folder:
-            script = pathlib.Path(folder) / "script"
-            script.write_text(statement + "\n")
-            count = SINGLE[self.suite.mode]
-            subprocess.run(["pgbench", "-n", "-t", str(count), "-f", script, "-l", f"--log-prefix={folder}/log"],
-                           check=True, capture_output=True)
-            seconds = [int(line.split()[2]) * 1e-6 for log in pathlib.Path(folder).glob("log.*")
-                       for line in log.read_text().splitlines()]
-        if len(seconds) != count:
-            raise server.Failure(f"pgbench ended {len(seconds)} of {count} transactions")
-        ordered = sorted(seconds)
-        self.suite.say(f"  {change} one point: {1000 * statistics.median(seconds):.2f} ms")
-        self.record(f"{change} one", [{"wall": round(statistics.median(seconds), 6)}], transactions=count,
+        ordered = latencies(statement, SINGLE[self.suite.mode])
+        self.suite.say(f"  {change} one point: {1000 * statistics.median(ordered):.2f} ms")
+        self.record(f"{change} one", [{"wall": round(statistics.median(ordered), 6)}], transactions=len(ordered),
                     percentile99=ordered[len(ordered) * 99 // 100])
+
+
+def latencies(statement, count):
+    """Seconds of so many transactions of pgbench, in ascending order."""
+    with tempfile.TemporaryDirectory() as folder:
+        script = pathlib.Path(folder) / "script"
+        script.write_text(statement + "\n")
+        subprocess.run(["pgbench", "-n", "-t", str(count), "-f", script, "-l", f"--log-prefix={folder}/log"],
+                       check=True, capture_output=True)
+        seconds = [int(line.split()[2]) * 1e-6 for log in pathlib.Path(folder).glob("log.*")
+                   for line in log.read_text().splitlines()]
+    if len(seconds) != count:
+        raise server.Failure(f"pgbench ended {len(seconds)} of {count} transactions")
+    return sorted(seconds)
 
 
 class SharedDeletes(Edits):

@@ -9,6 +9,7 @@ from driver import Part
 from edits import Edits, SharedDeletes, cancelled_builds
 from goose import Goose
 from gpu import Gpu
+from lines import Lines
 from location import location
 from octrees import Octrees
 from rasters import Raster
@@ -50,6 +51,8 @@ PARTS = [
     Part("shorelines", "shorelines, borders and rivers of the world", 3, contests(
         Contest(2, "shorelines", {"full": 0},
                 ("cgal", "abacus:default", "abacus:8"), FEWER))),
+    Part("lines", "shorelines, borders and rivers with all their segments as fixed edges, 8 MB of cache", 25, Lines(
+        {"full": ("f", None), "quick": ("h", 1000000), "smoke": ("h", 20000)}, FEWER).measure),
     Part("3d", "uniform points in space, all engines", 6, contests(
         Contest(3, "uniform", {"full": 1000000, "quick": 100000, "smoke": 5000},
                 ("cgal", "abacus:default", "abacus:16", "abacus:largest", THREADS[-1], PARALLEL[-1], "tetgen", "qhull")))),

@@ -17,6 +17,7 @@ SETS = {"uniform": "uniform", "curves": "clusters and curves", "grid": "grid",
 # Tables by themselves, and the measurements that each has
 TABLES = {"location": (tables.location, ("locate",)), "cold": (tables.cold, ("cold",)), "asking": (tables.asking, ("ask",)),
           "surfaces": (tables.surfaces, ("surface",)), "octrees": (tables.octrees, ("octree",)), "gpu": (tables.gpu, ("gpu",)),
+          "lines": (tables.lines, ("lines", "line insert")),
           "threads": (tables.threads, ("threads", "shared reading")), "edits": (tables.edits, ("edit",)),
           "cancels": (tables.cancels, ("cancel",)), "core": (tables.core, ("core",)),
           "goose": (habits.goose, ("goose",)), "rows": (habits.rows, ("rows",))}

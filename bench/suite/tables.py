@@ -120,6 +120,25 @@ def gpu(results):
     return table(("points", "", "triangulation", "÷ CuPy", "points in no triangle", "interpolation", "÷ CuPy", "runs"), rows)
 
 
+def lines(results):
+    """Builds with lines and without, of one engine one below the other, with the ratio of the two; then points beside lines."""
+    rows = []
+    for m in [*results.all(what="lines"), *results.all(what="line insert")]:
+        labels = {key: m[key] for key in ("what", "engine", "points")}
+        without = results.one(**labels, lines=False)
+        wall, base = spread_of(m, "wall"), spread_of(without, "wall") if without else None
+        is_build = m["what"] == "lines"
+        cgal = results.one(what="lines", engine="cgal", points=m["points"], lines=m["lines"]) if is_build else None
+        what = (f"{ENGINES.get(m['engine'], 'CGAL, in memory')}: {points(m['points'])} points" if is_build
+                else f"a point {'beside' if m['lines'] else 'without'} lines, median of {m['transactions']:,}")
+        rows.append((what, points(m["segments"]) if m["lines"] else "–", f"{spread(wall)} s" if is_build else f"{number(1000 * wall[0])} ms",
+                     f"{number(statistics.median(values(m, 'cpu')))} s" if is_build else "–",
+                     number(ratio(wall[0], base and base[0])) if m["lines"] else "–",
+                     number(ratio(wall[0], spread_of(cgal, "wall")[0])) if cgal else "–",
+                     size(max(values(m, "memory"))) if is_build else "–", len(m["samples"])))
+    return table(("", "segments", "wall", "CPU", "÷ without lines", "÷ CGAL", "memory", "runs"), rows)
+
+
 def edits(results):
     rows = []
     for m in results.all(what="edit"):

@@ -107,6 +107,18 @@ ABACUS_API abacus_status abacus_edges_along(abacus_mesh *mesh, const double a[2]
 											const double b[2], abacus_along_report report,
 											void *context, int *is_whole, abacus_error *error);
 
+/*
+ * Goes on from the vertex at a place, straight away from a place behind it, along a fixed edge: its
+ * other end becomes *next. ABACUS_END if no such edge is there.
+ */
+ABACUS_API abacus_status abacus_fixed_straight_on(abacus_mesh *mesh, const double behind[2],
+												  const double at[2], double next[2],
+												  abacus_error *error);
+
+/* Whether p lies exactly on the ray from a place through another one: ABACUS_OK, or ABACUS_END. */
+ABACUS_API abacus_status abacus_is_on_ray(const double from[2], const double through[2],
+										  const double p[2], abacus_error *error);
+
 #ifdef __cplusplus
 }
 #endif

@@ -96,6 +96,8 @@ typedef struct abacus_edge
 /* `ends` gets the coordinates of both ends, in the order of their ids; it may be NULL. */
 ABACUS_API abacus_status abacus_faces_next_edge(abacus_faces *faces, abacus_edge *edge,
 												double *ends, abacus_error *error);
+/* Whether the edge returned last is fixed; in space none is. */
+ABACUS_API int abacus_faces_is_fixed(const abacus_faces *faces);
 ABACUS_API uint64_t abacus_faces_pages(const abacus_faces *faces);
 ABACUS_API void abacus_faces_close(abacus_faces *faces);
 

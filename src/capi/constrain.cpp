@@ -99,3 +99,33 @@ abacus_status abacus_edges_along(abacus_mesh *mesh, const double a[2], const dou
         });
     });
 }
+
+abacus_status abacus_fixed_straight_on(abacus_mesh *mesh, const double behind[2],
+                                       const double at[2], double next[2], abacus_error *error) {
+    using namespace abacus;
+    return guard(error, [&] {
+        return mesh->reader.visit([&]<int D>(Reader<D> &reader) -> abacus_status {
+            if constexpr (D != 2) {
+                throw Error(ABACUS_ERROR_ARGUMENT, "lines need a mesh of dimension 2");
+            } else {
+                const auto corner = corner_at(reader, finite_point<2>(at));
+                if (!corner) return ABACUS_END;
+                const auto end =
+                    fixed_straight_on(reader.cache(), *corner, finite_point<2>(behind));
+                if (!end) return ABACUS_END;
+                for (int axis = 0; axis < 2; ++axis) next[axis] = (*end)[axis];
+                return ABACUS_OK;
+            }
+        });
+    });
+}
+
+abacus_status abacus_is_on_ray(const double from[2], const double through[2], const double p[2],
+                               abacus_error *error) {
+    using namespace abacus;
+    return guard(error, [&] {
+        return is_on_ray(finite_point<2>(from), finite_point<2>(through), finite_point<2>(p))
+                   ? ABACUS_OK
+                   : ABACUS_END;
+    });
+}

@@ -81,6 +81,15 @@ abacus_status abacus_faces_next_edge(abacus_faces *faces, abacus_edge *edge, dou
     });
 }
 
+int abacus_faces_is_fixed(const abacus_faces *faces) {
+    return faces->faces.visit([]<int D>(const abacus::FaceScan<D> &scan) -> int {
+        if constexpr (D == 2)
+            return scan.is_fixed();
+        else
+            return 0;
+    });
+}
+
 uint64_t abacus_faces_pages(const abacus_faces *faces) {
     return faces->faces.visit([](const auto &scan) { return scan.pages_read(); });
 }

@@ -39,18 +39,9 @@ Fixed LinesOver::kind(const Point<2> &a, const Point<2> &b) {
 }
 
 std::optional<Point<2>> LinesOver::next(const Point<2> &behind, const Point<2> &at) {
-    Cache<2> &cache = mesh_.cache();
     const Link corner = vertex_at(mesh_, at);
     if (corner == unset) return {};
-    std::optional<Point<2>> found;
-    turn_around(cache, corner, [&](Handle h, int i) {
-        const VertexIndex x = cache.simplex(h).vertex[(i + 1) % 3];
-        if (x == infinite_vertex || !cache.is_fixed(make_link(h, (i + 2) % 3))) return true;
-        const Point<2> &p = cache.point(x);
-        if (orientation(behind, at, p) == 0 && is_behind(behind, at, p)) found = p;
-        return !found;
-    });
-    return found;
+    return fixed_straight_on(mesh_.cache(), corner, behind);
 }
 
 } // namespace abacus

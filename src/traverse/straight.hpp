@@ -3,6 +3,8 @@
 
 #include "mesh/cache.hpp"
 
+#include <optional>
+
 namespace abacus {
 
 /// For three points on one line: whether p lies on the same side of `from` as `to` does.
@@ -33,6 +35,21 @@ template <class Visit> void turn_around(Cache<2> &cache, Link corner, Visit visi
         at = (link_facet(next) + 1) % 3;
         if (++turns % 4096 == 0) cache.poll();
     } while (h != first);
+}
+
+/// The other end of the fixed edge at a vertex that leads straight away from a place `behind` it.
+inline std::optional<Point<2>> fixed_straight_on(Cache<2> &cache, Link corner,
+                                                 const Point<2> &behind) {
+    const Point<2> at = cache.point(cache.simplex(link_simplex(corner)).vertex[link_facet(corner)]);
+    std::optional<Point<2>> found;
+    turn_around(cache, corner, [&](Handle h, int i) {
+        const VertexIndex x = cache.simplex(h).vertex[(i + 1) % 3];
+        if (x == infinite_vertex || !cache.is_fixed(make_link(h, (i + 2) % 3))) return true;
+        const Point<2> &p = cache.point(x);
+        if (orientation(behind, at, p) == 0 && is_behind(behind, at, p)) found = p;
+        return !found;
+    });
+    return found;
 }
 
 /// A triangle and its corner at the vertex. The way leads along the edge that begins there

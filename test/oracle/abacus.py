@@ -22,6 +22,11 @@ def psql(sql, sent=""):
     return done.stdout
 
 
+def script(sql):
+    """What a script prints, statement by statement, errors and notices as well; it goes on after an error."""
+    return subprocess.run(["psql", "-X", "-q"], input=sql, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=False).stdout
+
+
 def rows(query):
     """The rows of a query, each a list of texts; NULL is the word."""
     return list(csv.reader(io.StringIO(psql(f"COPY ({query}) TO STDOUT (FORMAT csv, NULL 'NULL')"))))

@@ -57,6 +57,33 @@ class Layers(unittest.TestCase):
         self.assertEqual(sorted(f["properties"]["id"] for f in features), sorted(ours[:, 0].astype(int)))
         self.assertGreater(len(features), 10)
 
+    def test_lines(self):
+        """Lines and fixed edges are layers as well, with heights at their corners; of a mesh that has got another name since."""
+        abacus.psql("""SELECT abacus_constrain('survey', $$ SELECT 1 + i, ST_GeomFromText(format('MULTILINESTRING Z((%s 50 %s, %s 400 8), (600 %s 9, 900 %s 10))',
+            100 + 10 * i, 7 + i, 500 + 10 * i, 10 + 20 * i, 11 + 20 * i), 25832) FROM generate_series(0, 3) AS i $$, z => 'height')""")
+        abacus.psql("ALTER TABLE survey RENAME TO outcome; ALTER TABLE survey_vertices RENAME TO outcome_vertices; ALTER TABLE survey_lines RENAME TO outcome_lines")
+        try:
+            given, edges = layer("survey_breaklines"), layer("survey_fixed_edges")
+            listed = subprocess.run(["ogrinfo", "-so", f"PG:dbname={abacus.rows('SELECT current_database()')[0][0]}", "survey_fixed_edges"],
+                                    check=True, capture_output=True, text=True).stdout
+        finally:
+            abacus.psql("ALTER TABLE outcome RENAME TO survey; ALTER TABLE outcome_vertices RENAME TO survey_vertices; ALTER TABLE outcome_lines RENAME TO survey_lines")
+        self.assertIn("Geometry: 3D Line String", listed)
+        self.assertRegex(listed, r"lines: Integer64List|lines: IntegerList")
+        self.assertEqual([f["properties"]["line"] for f in given], [1, 2, 3, 4])
+        for feature in given:
+            self.assertEqual(feature["geometry"]["type"], "MultiLineString")
+            self.assertEqual([len(part) for part in feature["geometry"]["coordinates"]], [2, 2])
+        corners = numpy.array([place for f in edges for place in f["geometry"]["coordinates"]])
+        self.assertEqual(len(corners), 16)
+        at = {(float(x), float(y)): float(h) for x, y, h in abacus.numbers("SELECT x, y, coalesce(attributes[1], 'NaN') FROM abacus_vertices('survey')")}
+        numpy.testing.assert_array_equal(corners[:, 2], [at[x, y] for x, y in corners[:, :2]])
+        total = float(abacus.rows("SELECT sum(length) FROM abacus_edges('survey', fixed => true)")[0][0])
+        self.assertAlmostEqual(sum(f["properties"]["length"] for f in edges), total, 6)
+        # the window of a layer
+        part = layer("survey_fixed_edges", "-spat", "100", "100", "200", "200")
+        self.assertTrue(0 < len(part) < len(edges))
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -221,8 +221,17 @@ SELECT abacus_triangulate('ruled', 'TABLE point');
 SELECT abacus_constrain('ruled', 'VALUES (1, 1, 0), (1, 2, 30)');
 CREATE RULE nothing AS ON INSERT TO ruled_lines DO INSTEAD NOTHING;
 SELECT throws_ok($$ SELECT abacus_constrain('ruled', 'VALUES (2, 1, 0), (2, 2, 2)') $$, '55000',
-                 'a rule or a trigger of the table of lines keeps lines out');
+                 'a rule or a trigger interferes with the table of lines');
 DROP RULE nothing ON ruled_lines;
+CREATE RULE nothing AS ON DELETE TO ruled_lines DO INSTEAD NOTHING;
+SELECT throws_ok($$ SELECT abacus_unconstrain('ruled', 'VALUES (1)') $$, '55000', 'a rule or a trigger interferes with the table of lines');
+SELECT throws_ok($$ SELECT abacus_constrain('ruled', 'VALUES (1, 1, 0), (1, 2, 2)', existing => 'replace') $$, '55000',
+                 'a rule or a trigger interferes with the table of lines');
+DROP RULE nothing ON ruled_lines;
+CREATE FUNCTION pg_temp.keep() RETURNS trigger LANGUAGE plpgsql AS $$ BEGIN RETURN CASE WHEN OLD.position > 1 THEN OLD END; END $$;
+CREATE TRIGGER keeps BEFORE DELETE ON ruled_lines FOR EACH ROW EXECUTE FUNCTION pg_temp.keep();
+SELECT throws_ok($$ SELECT abacus_unconstrain('ruled', 'VALUES (1)') $$, '55000', 'a rule or a trigger interferes with the table of lines');
+DROP TRIGGER keeps ON ruled_lines;
 SELECT abacus_insert('ruled', 'VALUES (9223372036854775807, 1.5, 1.5, 0)');
 SELECT throws_ok($$ SELECT abacus_constrain('ruled', 'VALUES (2, 1, 0, 0, 0), (2, 2, NULL, 0.5, 0.75)') $$, '54000',
                  'no id is left above the greatest one, 9223372036854775807');

@@ -231,6 +231,21 @@ class Tables(unittest.TestCase):
         self.assertIn("| 3D, 5,000 points: `abacus_check` | 1 | 1.00 s | 2.00 s | 1.00 | 1 |", text)
         self.assertIn("| 3D, 5,000 points: `abacus_check` | 2 | 0.500 s | 2.00 s | 2.00 | 1 |", text)
 
+    def test_lines_are_compared_with_no_lines_and_with_cgal(self):
+        def made(engine, has_lines, seconds):
+            return {"what": "lines", "engine": engine, "lines": has_lines, "points": 10**6, "segments": 900000, "left_out": 28,
+                    "samples": [{"wall": seconds, "cpu": seconds, "memory": 1 << 20}]}
+        def insert(has_lines, seconds):
+            return {"what": "line insert", "engine": "abacus", "lines": has_lines, "points": 10**6, "segments": 900000, "transactions": 20,
+                    "samples": [{"wall": seconds}]}
+        text = tables.lines(of(made("cgal", False, 1.0), made("cgal", True, 2.0), made("abacus", False, 0.5), made("abacus", True, 4.0),
+                               insert(True, 0.003), insert(False, 0.002)))
+        self.assertIn("| CGAL, in memory: 1 M points | 900,000 | 2.00 s | 2.00 s | 2.00 | 1.00 |", text)
+        self.assertIn("| Abacus: 1 M points | 900,000 | 4.00 s | 4.00 s | 8.00 | 2.00 |", text)
+        self.assertIn("| Abacus: 1 M points | – | 0.500 s | 0.500 s | – | 0.500 |", text)
+        self.assertIn("| a point beside lines, median of 20 | 900,000 | 3.00 ms | – | 1.50 | – |", text)
+        self.assertIn("| a point without lines, median of 20 | – | 2.00 ms | – | – | – |", text)
+
     def test_files_have_a_rate(self):
         written = {"what": "ask", "question": "PLY of 8 triangles", "engine": "abacus", "points": 9, "written": True,
                    "samples": [{"wall": 2.0, "cpu": 1.0, "bytes": 10**7}]}
@@ -242,7 +257,7 @@ class Tables(unittest.TestCase):
 
     def test_without_rows_there_is_no_table(self):
         self.assertEqual(document.table(("a", "b"), []), "")
-        for name in "asking", "threads", "surfaces", "gpu", "location":
+        for name in "asking", "threads", "surfaces", "gpu", "location", "lines":
             self.assertEqual(getattr(tables, name)(of()), "")
 
 

@@ -312,6 +312,7 @@ abacus_sql_publish(PG_FUNCTION_ARGS)
 		views.functions = publication.functions;
 		views.has_geometry = publication.geometry != NULL;
 		views.srid = publication.srid;
+		views.z = publication.z >= 0 ? publication.names.of[publication.z] : NULL;
 		tables[count++] = line_views_edges(&views, table_name(fcinfo, PUBLISH_FIXED_EDGES, views.mesh, "fixed_edges"));
 		tables[count++] = line_views_lines(&views, table_name(fcinfo, PUBLISH_BREAKLINES, views.mesh, "breaklines"));
 	}

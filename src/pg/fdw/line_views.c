@@ -24,6 +24,27 @@ call(const LineViews *views, const char *function)
 					quote_qualified_identifier(views->functions, function), views->mesh);
 }
 
+/* A point at a place of the mesh, in SQL. A missing value is NaN, as in the other published tables. */
+static char *
+point_at(const LineViews *views, Oid type, const char *x, const char *y)
+{
+	char	   *point = geometry_function(type, "st_makepoint");
+
+	if (views->z == NULL)
+		return psprintf("%s(%s, %s)", point, x, y);
+	return psprintf("%s(%s, %s, coalesce(%s('%u'::pg_catalog.regclass, %s, %s, %s), 'NaN'))", point, x, y,
+					quote_qualified_identifier(views->functions, "abacus_interpolate"), views->mesh, x, y,
+					quote_literal_cstr(views->z));
+}
+
+/* The type of a column of lines, with its SRID. */
+static char *
+column_type(const LineViews *views, Oid type, const char *kind)
+{
+	return psprintf("%s(%s%s, %d)", geometry_function(type, "geometry"), kind, views->z != NULL ? "Z" : "",
+					views->srid);
+}
+
 /* Makes a view, unless the name is that of one that shows the mesh. */
 static Oid
 make_view(const LineViews *views, const char *name, const char *query)
@@ -47,13 +68,10 @@ line_views_edges(const LineViews *views, const char *name)
 	char	   *geometry = "";
 
 	if (views->has_geometry)
-	{
-		char	   *point = geometry_function(type, "st_makepoint");
-
-		geometry = psprintf(", %s(%s(%s(path[1], path[2]), %s(path[3], path[4])), %d)::%s(LineString, %d) AS geom",
-							geometry_function(type, "st_setsrid"), geometry_function(type, "st_makeline"),
-							point, point, views->srid, geometry_function(type, "geometry"), views->srid);
-	}
+		geometry = psprintf(", %s(%s(%s, %s), %d)::%s AS geom", geometry_function(type, "st_setsrid"),
+							geometry_function(type, "st_makeline"), point_at(views, type, "path[1]", "path[2]"),
+							point_at(views, type, "path[3]", "path[4]"), views->srid,
+							column_type(views, type, "LineString"));
 	return make_view(views, name,
 					 psprintf("SELECT v0, v1, length, lines, kind%s FROM %s WHERE %s", geometry,
 							  call(views, "_abacus_fixed_edges"), call(views, SHOWN_MESH_FUNCTION)));
@@ -72,11 +90,11 @@ line_views_lines(const LineViews *views, const char *name)
 						 psprintf("SELECT line, \"position\", point, x, y, kind, part FROM %s WHERE %s",
 								  lines, condition));
 	return make_view(views, name,
-					 psprintf("SELECT line, kind, %s(%s(path ORDER BY part), %d)::%s(MultiLineString, %d) AS geom "
-							  "FROM (SELECT line, kind, coalesce(part, 0) AS part, %s(%s(x, y) ORDER BY \"position\") AS path FROM %s "
+					 psprintf("SELECT line, kind, %s(%s(path ORDER BY part), %d)::%s AS geom "
+							  "FROM (SELECT line, kind, coalesce(part, 0) AS part, %s(%s ORDER BY \"position\") AS path FROM %s "
 							  "WHERE %s GROUP BY line, kind, coalesce(part, 0)) AS part GROUP BY line, kind",
 							  geometry_function(type, "st_setsrid"), geometry_function(type, "st_collect"),
-							  views->srid, geometry_function(type, "geometry"), views->srid,
-							  geometry_function(type, "st_makeline"), geometry_function(type, "st_makepoint"),
+							  views->srid, column_type(views, type, "MultiLineString"),
+							  geometry_function(type, "st_makeline"), point_at(views, type, "x", "y"),
 							  lines, condition));
 }

@@ -12,6 +12,7 @@ typedef struct LineViews
 	const char *functions;		/* schema of ours */
 	bool		has_geometry;
 	int			srid;
+	const char *z;				/* attribute that is the Z of geometries, or NULL */
 } LineViews;
 
 extern Oid	line_views_edges(const LineViews *views, const char *name);

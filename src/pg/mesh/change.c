@@ -203,8 +203,8 @@ change_stage(Change *change)
 }
 
 /*
- * Inserts points that wait, if lines wait with them, and fixes their edges: what follows frees edges
- * or deletes points.
+ * Inserts points that wait, if lines wait with them, and fixes their edges: what follows deletes
+ * points, or changes their attributes.
  */
 static void
 settle_lines(Change *change)
@@ -307,8 +307,8 @@ change_fix(Change *change)
 }
 
 /*
- * Frees the edges of the segments in `freed`. Lines that wait are fixed before, together with the
- * points that wait; if there are no simplices, there is nothing to free.
+ * Frees the edges of the segments in `freed`, and inserts the points that wait. Then lines that wait are
+ * fixed, unless they cross.
  */
 void
 change_unfix(Change *change)
@@ -317,11 +317,10 @@ change_unfix(Change *change)
 	abacus_header *header = change->writer.header;
 
 	change_open_build(change);
-	settle_lines(change);
-	if (header->facts.census.vertices > 0)
-		host_run(host, abacus_build_unfix, change->build, change->freed, header);
+	host_run(host, abacus_build_unfix, change->build, change->freed, header);
 	abacus_segments_close(change->freed);
 	change->freed = NULL;
+	mesh_lines_fix_left(&change->writer, change->build, &change->fixed);
 }
 
 /* Reports the simplices that have been created and removed, if the change returns them. */

@@ -90,7 +90,7 @@ line_crossings_close(LineCrossings *crossings)
 	host_destroy(crossings->host);
 }
 
-/* ---- The error ------------------------------------------------------------------- */
+/* ---- Those of the mesh ------------------------------------------------------------------- */
 
 static char *
 shown(double number)
@@ -108,6 +108,21 @@ add_lines(LineCrossings *crossings, Writer *writer)
 	line_crossings_add_query(crossings, psprintf("SELECT line, position, x, y, coalesce(part, 0) FROM %s",
 												 lines_table_name(table)), true);
 	SPI_finish();
+}
+
+/* Whether any lines of the mesh cross. */
+bool
+line_crossings_any(Writer *writer, VertexTest is_vertex, void *context)
+{
+	LineCrossings crossings;
+	abacus_crossing crossing;
+	bool		any;
+
+	line_crossings_open(&crossings, setting_sort_bytes());
+	add_lines(&crossings, writer);
+	any = line_crossings_next(&crossings, is_vertex, context, &crossing);
+	line_crossings_close(&crossings);
+	return any;
 }
 
 /*

@@ -34,6 +34,7 @@ extern void line_crossings_add_query(LineCrossings *crossings, const char *query
 extern bool line_crossings_next(LineCrossings *crossings, VertexTest is_vertex, void *context,
 								abacus_crossing *crossing);
 extern void line_crossings_close(LineCrossings *crossings);
+extern bool line_crossings_any(Writer *writer, VertexTest is_vertex, void *context);
 extern void line_crossings_refuse(Writer *writer, VertexTest is_vertex, void *context);
 
 #endif

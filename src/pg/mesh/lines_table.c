@@ -27,6 +27,25 @@ lines_table_name(Oid table)
 									  get_rel_name(table));
 }
 
+/*
+ * A query for the segments that end at a place, whose coordinates are its arguments: line, x and y of the
+ * other end, and whether the line is hard.
+ */
+char *
+lines_table_segments_at(Oid table)
+{
+	/* the point of the same line that comes before or after, if it is in the same part */
+	static const char *const half =
+		"SELECT p.line, o.x, o.y, p.kind OPERATOR(pg_catalog.=) 'hard' FROM %1$s AS p, LATERAL ("
+		"SELECT n.x, n.y, n.part FROM %1$s AS n WHERE n.line OPERATOR(pg_catalog.=) p.line AND "
+		"n.position OPERATOR(pg_catalog.%2$s) p.position ORDER BY n.position %3$s LIMIT 1) AS o "
+		"WHERE p.x OPERATOR(pg_catalog.=) $1 AND p.y OPERATOR(pg_catalog.=) $2 AND "
+		"COALESCE(o.part, 0) OPERATOR(pg_catalog.=) COALESCE(p.part, 0)";
+	char	   *name = lines_table_name(table);
+
+	return psprintf("%s UNION ALL %s", psprintf(half, name, "<", "DESC"), psprintf(half, name, ">", "ASC"));
+}
+
 static void
 check_may_make(Relation mesh, const char *name)
 {

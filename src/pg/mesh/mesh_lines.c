@@ -52,17 +52,8 @@ mesh_of(const Host *host)
 static void
 prepare(MeshLines *lines)
 {
-	/* the point of the same line that comes before or after, if it is in the same part */
-	static const char *const half =
-		"SELECT p.line, o.x, o.y, p.kind OPERATOR(pg_catalog.=) 'soft' FROM %1$s AS p, LATERAL ("
-		"SELECT n.x, n.y, n.part FROM %1$s AS n WHERE n.line OPERATOR(pg_catalog.=) p.line AND "
-		"n.position OPERATOR(pg_catalog.%2$s) p.position ORDER BY n.position %3$s LIMIT 1) AS o "
-		"WHERE p.x OPERATOR(pg_catalog.=) $1 AND p.y OPERATOR(pg_catalog.=) $2 AND "
-		"COALESCE(o.part, 0) OPERATOR(pg_catalog.=) COALESCE(p.part, 0)";
 	Oid			types[] = {FLOAT8OID, FLOAT8OID};
-	char	   *table = lines_table_name(lines_table_require(mesh_of(lines->host), MESH_WRITE));
-	char	   *query = psprintf("%s UNION ALL %s", psprintf(half, table, "<", "DESC"),
-								 psprintf(half, table, ">", "ASC"));
+	char	   *query = lines_table_segments_at(lines_table_require(mesh_of(lines->host), MESH_WRITE));
 
 	lines->plan = SPI_prepare_cursor(query, lengthof(types), types, CURSOR_OPT_GENERIC_PLAN);
 	if (lines->plan == NULL || SPI_keepplan(lines->plan) != 0)
@@ -90,7 +81,7 @@ take_ends(MeshLines *lines, const SPITupleTable *rows, uint64 count)
 		for (int axis = 0; axis < 2; axis++)
 			end->other[axis] = DatumGetFloat8(SPI_getbinval(rows->vals[i], rows->tupdesc, axis + 2,
 															&isnull));
-		end->is_soft = DatumGetBool(SPI_getbinval(rows->vals[i], rows->tupdesc, 4, &isnull)) ? 1 : 0;
+		end->is_soft = DatumGetBool(SPI_getbinval(rows->vals[i], rows->tupdesc, 4, &isnull)) ? 0 : 1;
 	}
 }
 
@@ -257,6 +248,13 @@ mesh_lines_fix(Writer *writer, abacus_build *build, abacus_segments *segments)
 	host_leave(host, status);
 }
 
+/* Whether lines wait that could be fixed. */
+static bool
+may_fix_waiting(const abacus_census *census)
+{
+	return census->lines_wait > 0 && census->vertices > 0 && census->inserted >= census->staged;
+}
+
 /*
  * Fixes the edges of all lines, if lines wait and no point does any more. *segments is NULL, and
  * owned by the host's handle.
@@ -267,7 +265,7 @@ mesh_lines_fix_waiting(Writer *writer, abacus_build *build, abacus_segments **se
 	Host	   *host = writer->host;
 	abacus_census *census = &writer->header->facts.census;
 
-	if (census->lines_wait == 0 || census->vertices == 0 || census->inserted < census->staged)
+	if (!may_fix_waiting(census))
 		return;
 	mesh_lines_open(writer, segments);
 	SPI_connect();
@@ -279,6 +277,40 @@ mesh_lines_fix_waiting(Writer *writer, abacus_build *build, abacus_segments **se
 	abacus_segments_close(*segments);
 	*segments = NULL;
 	census->lines_wait = 0;
+}
+
+/* The same when other lines have gone. If some of those that wait cross, they go on waiting. */
+void
+mesh_lines_fix_left(Writer *writer, abacus_build *build, abacus_segments **segments)
+{
+	MeshBuild	changed = {writer->host, build};
+
+	if (may_fix_waiting(&writer->header->facts.census) &&
+		!line_crossings_any(writer, is_vertex, &changed))
+		mesh_lines_fix_waiting(writer, build, segments);
+}
+
+/* Why lines of the mesh wait, if any do. */
+void
+mesh_lines_notice_waiting(const Writer *writer)
+{
+	const abacus_census *census = &writer->header->facts.census;
+	const char *mesh = RelationGetRelationName(mesh_of(writer->host));
+
+	if (census->lines_wait == 0)
+		return;
+	if (may_fix_waiting(census))
+		ereport(NOTICE,
+				(errmsg("lines of mesh \"%s\" wait, since some of them cross", mesh),
+				 errhint("Find the crossings with abacus_crossings(). The edges of lines are fixed as soon as "
+						 "abacus_unconstrain() has removed those that cross, or vertices are inserted there.")));
+	else
+		ereport(NOTICE,
+				(errmsg("lines of mesh \"%s\" wait for points", mesh),
+				 errdetail(census->vertices == 0 ? "The mesh has no triangles yet."
+						   : "Some points of the mesh have not been inserted yet."),
+				 errhint("Their edges are fixed as soon as abacus_build() or abacus_insert() has inserted all "
+						 "points.")));
 }
 
 /*

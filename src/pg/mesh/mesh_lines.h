@@ -12,6 +12,8 @@ extern void mesh_lines_add(Host *host, abacus_segments *segments, const char *qu
 extern void mesh_lines_open(Writer *writer, abacus_segments **segments);
 extern void mesh_lines_fix(Writer *writer, abacus_build *build, abacus_segments *segments);
 extern void mesh_lines_fix_waiting(Writer *writer, abacus_build *build, abacus_segments **segments);
+extern void mesh_lines_fix_left(Writer *writer, abacus_build *build, abacus_segments **segments);
+extern void mesh_lines_notice_waiting(const Writer *writer);
 extern void mesh_lines_refuse_waiting(const Writer *writer);
 extern void mesh_lines_refuse_clearing(const Writer *writer);
 

@@ -6,19 +6,25 @@
 
 namespace abacus {
 
+/// A corner of a triangle at a place; nothing if there is no vertex.
+inline std::optional<Link> corner_at(Reader<2> &reader, const Point<2> &p) {
+    Cache<2> &cache = reader.cache();
+    const Handle h = reader.simplex_around(p);
+    if (h == no_handle) return {};
+    for (int i = 0; i < cache.simplex(h).finite_vertices(); ++i)
+        if (cache.point(cache.simplex(h).vertex[i]) == p) return make_link(h, i);
+    return {};
+}
+
 /// Calls visit(a, b, how) for the vertices at both ends of each edge, in the order from p to
 /// q. False if an end is not a vertex, or an edge is missing, where this stops.
 template <class Visit>
 bool edges_along(Reader<2> &reader, const Point<2> &p, const Point<2> &q, Visit visit) {
     Cache<2> &cache = reader.cache();
     for (Point<2> at = p; at != q;) {
-        const Handle h = reader.simplex_around(at);
-        if (h == no_handle) return false;
-        int corner = -1;
-        for (int i = 0; i < cache.simplex(h).finite_vertices(); ++i)
-            if (cache.point(cache.simplex(h).vertex[i]) == at) corner = i;
-        if (corner < 0) return false;
-        const Way way = straight_on(cache, make_link(h, corner), q);
+        const std::optional<Link> corner = corner_at(reader, at);
+        if (!corner) return false;
+        const Way way = straight_on(cache, *corner, q);
         if (!way.is_edge) return false;
         const auto &vertex = cache.simplex(way.triangle).vertex;
         const VertexIndex end = vertex[(way.corner + 1) % 3];

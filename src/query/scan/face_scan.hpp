@@ -17,6 +17,7 @@
 #include "query/pages/vertex_values.hpp"
 #include "query/scan/window.hpp"
 
+#include <bit>
 #include <memory_resource>
 #include <optional>
 #include <vector>
@@ -39,6 +40,11 @@ public:
     /// The page with the current face, and the number of a corner there.
     const PageView<D> &page() const { return pages_.page(); }
     int vertex(int corner) const { return vertices_[corner]; }
+    /// Whether the current face, an edge in the plane, is fixed.
+    bool is_fixed() const requires(D == 2) {
+        const unsigned face = face_ - 1; // advance() stands behind it
+        return page().fixed(simplex_) >> std::countr_one(face) & 1;
+    }
     /// Pages of the window, without those that the search for owners of faces reads.
     std::uint64_t pages_read() const { return pages_.pages_read(); }
     const VertexValues<D> &vertex_values() const { return vertex_values_; }

@@ -3,7 +3,8 @@
  *
  * The core follows each segment of each line from edge to edge. An edge of several lines comes once
  * for each, so the rows are grouped. If only a window is wanted, its edges are found as
- * abacus_edges() finds them, and joined.
+ * abacus_edges() finds them, and their lines from there (fixed_window.c); if there is no room for them, the
+ * edges of all lines are joined with them.
  */
 #include "postgres.h"
 
@@ -21,6 +22,7 @@
 #include "pg/mesh/mesh_cache.h"
 #include "pg/port/port.h"
 #include "pg/sql/constrain/fixed_edges.h"
+#include "pg/sql/constrain/fixed_window.h"
 #include "pg/sql/constrain/named_rows.h"
 
 /* Rows with names. */
@@ -65,14 +67,29 @@ note_broken(EdgeRows *edges)
 	edges->is_broken = true;
 }
 
+/* Puts an edge of a line into the rows: x and y of both ends, in the order of the ids. */
+static void
+put_row(NamedRows *rows, const int64 ids[2], const double ends[4], int64 line, bool is_hard)
+{
+	bool		in_order = ids[0] <= ids[1];
+	Datum		values[EDGE_COLUMNS];
+	bool		isnull[EDGE_COLUMNS] = {false};
+
+	values[EDGE_V0] = Int64GetDatum(ids[in_order ? 0 : 1]);
+	values[EDGE_V1] = Int64GetDatum(ids[in_order ? 1 : 0]);
+	for (int i = 0; i < 4; i++)
+		values[EDGE_ENDS + i] = Float8GetDatum(ends[in_order ? i : i ^ 2]);
+	values[EDGE_LENGTH] = Float8GetDatum(hypot(ends[2] - ends[0], ends[3] - ends[1]));
+	values[EDGE_LINE] = Int64GetDatum(line);
+	values[EDGE_IS_HARD] = BoolGetDatum(is_hard);
+	named_rows_put(rows, values, isnull);
+}
+
 /* Called by the core. */
 static abacus_host_status
 put_edge(void *context, const int64_t ids[2], const double ends[2][2], abacus_edge_kind kind)
 {
 	EdgeRows   *edges = context;
-	bool		in_order = ids[0] <= ids[1];
-	Datum		values[EDGE_COLUMNS];
-	bool		isnull[EDGE_COLUMNS] = {false};
 
 	if (kind == ABACUS_FREE_EDGE)
 	{
@@ -81,17 +98,19 @@ put_edge(void *context, const int64_t ids[2], const double ends[2][2], abacus_ed
 	}
 	if (edges->is_hard && kind != ABACUS_HARD_EDGE)
 		edges->has_wrong_kind = true;
-	values[EDGE_V0] = Int64GetDatum(ids[in_order ? 0 : 1]);
-	values[EDGE_V1] = Int64GetDatum(ids[in_order ? 1 : 0]);
-	for (int i = 0; i < 4; i++)
-		values[EDGE_ENDS + i] = Float8GetDatum(ends[(i / 2) ^ !in_order][i % 2]);
-	values[EDGE_LENGTH] = Float8GetDatum(hypot(ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]));
-	values[EDGE_LINE] = Int64GetDatum(edges->line);
-	values[EDGE_IS_HARD] = BoolGetDatum(edges->is_hard);
 	GUARD_BEGIN();
-	named_rows_put(edges->rows, values, isnull);
+	put_row(edges->rows, ids, ends[0], edges->line, edges->is_hard);
 	GUARD_END(edges->cached->host);
 	return ABACUS_HOST_OK;
+}
+
+/* Called for the edges of a window. */
+static void
+put_window_edge(void *context, const int64 ids[2], const double ends[4], int64 line, bool is_hard)
+{
+	EdgeRows   *edges = context;
+
+	put_row(edges->rows, ids, ends, line, is_hard);
 }
 
 /* Adds the edges of a segment of a line. */
@@ -274,18 +293,21 @@ fixed_edges_put(Reader *reader, const abacus_window *window, double max_edge, bo
 	bool		is_part = window->kind != ABACUS_NO_WINDOW || max_edge > 0;
 	EdgeRows	edges = {0};
 	NamedRows  *part = NULL;
-	char	   *table;
+	Oid			table;
 	int			level;
 
 	if (reader->header.facts.census.lines == 0 || reader->header.facts.census.vertices == 0)
 		return;
-	table = lines_table_name(lines_table_require(pages->simplices.heap, MESH_READ));
+	table = lines_table_require(pages->simplices.heap, MESH_READ);
 	SPI_connect();
 	edges.cached = mesh_cache_get(pages->mesh);
 	edges.rows = named_rows_create(EDGES_ON_LINES, edge_columns, lengthof(edge_columns));
 	bound(&edges, window);
 	level = plain_names_begin(false);
-	add_lines(&edges, table);
+	if (is_part && fixed_window_read(reader, edges.cached, window, max_edge, table, put_window_edge, &edges))
+		is_part = false;
+	else
+		add_lines(&edges, lines_table_name(table));
 	named_rows_register(edges.rows);
 	if (is_part)
 		part = read_window(reader, window, max_edge);

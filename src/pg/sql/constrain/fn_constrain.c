@@ -8,6 +8,7 @@
 
 #include "pg/base/sql_function.h"
 #include "pg/mesh/lines_table.h"
+#include "pg/mesh/mesh_lines.h"
 #include "pg/sql/arguments/word.h"
 #include "pg/sql/constrain/line_rows.h"
 #include "pg/sql/constrain/new_lines.h"
@@ -91,6 +92,7 @@ remove_lines(Change *change)
 	{
 		change_unfix(change);
 		change_lines(change, -(int64) gone, -soft);
+		mesh_lines_notice_waiting(&change->writer);
 	}
 	return gone;
 }

@@ -14,6 +14,9 @@
 
 #define FOUND "abacus_found"
 
+/* The ids among them that rows give, each with its places. */
+#define FOUND_PLACES "(SELECT DISTINCT id, x, y FROM " FOUND " WHERE by_id)"
+
 static char *
 number_of(Datum value)
 {
@@ -81,37 +84,6 @@ check_positions(const NewLines *lines)
 				 errhint("A line has two points or more. A single point is inserted by abacus_insert().")));
 }
 
-/* The place that a row gives for an id, the least or the greatest. */
-#define GIVEN_AT \
-	"SELECT x, y, line, position FROM " LINE_ROWS " WHERE point = '" INT64_FORMAT \
-	"' ORDER BY x %s, y %s, line, position LIMIT 1"
-
-/* An id that rows give with two places. */
-static void
-check_ids(void)
-{
-	Datum		values[2];
-	Datum		first[4];
-	Datum		second[4];
-	bool		isnull[4];
-	int64		id;
-
-	if (!query_first("SELECT point FROM " LINE_ROWS " WHERE point IS NOT NULL GROUP BY point "
-					 "HAVING min(x) <> max(x) OR min(y) <> max(y) ORDER BY point LIMIT 1", values, isnull, 1))
-		return;
-	id = DatumGetInt64(values[0]);
-	query_first(psprintf(GIVEN_AT, id, "ASC", "ASC"), first, isnull, 4);
-	query_first(psprintf(GIVEN_AT, id, "DESC", "DESC"), second, isnull, 4);
-	ereport(ERROR,
-			(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
-			 errmsg("point " INT64_FORMAT " is given with two places", id),
-			 errdetail("It is %s at position " INT64_FORMAT " of line " INT64_FORMAT ", and %s at position "
-					   INT64_FORMAT " of line " INT64_FORMAT ".", place(first), DatumGetInt64(first[3]),
-					   DatumGetInt64(first[2]), place(second), DatumGetInt64(second[3]),
-					   DatumGetInt64(second[2])),
-			 errhint("Give each place an id of its own, or NULL.")));
-}
-
 /* Checks that need no mesh. */
 void
 line_points_check(const NewLines *lines)
@@ -119,13 +91,15 @@ line_points_check(const NewLines *lines)
 	check_positions(lines);
 	if (lines->shape.has_parts)
 		check_parts();
-	if (lines->shape.has_places)
-		check_ids();
 }
 
 /* ---- Points of the mesh -------------------------------------------------------------- */
 
-/* Finds the points of the mesh with the ids of rows, or at their places. */
+/*
+ * Finds the points of the mesh with the ids of rows, or at their places. A line can name a point that is
+ * gone, if its place still has another one. So what the lines of the mesh name counts as found as well: a
+ * place with its id, or, where rows have no places, an id that the mesh lacks.
+ */
 static NamedRows *
 find(const NewLines *lines)
 {
@@ -133,21 +107,26 @@ find(const NewLines *lines)
 		{"id", INT8OID}, {"x", FLOAT8OID}, {"y", FLOAT8OID}, {"vertex", INT8OID},
 		{"sequence", INT8OID}, {"attributes", FLOAT8ARRAYOID}, {"by_id", BOOLOID}
 	};
-	const char *attributes = lines->shape.has_attributes ? "v.attributes" : "NULL::float8[]";
-
-	const char *query = lines->shape.has_nameless || lines->shape.has_attributes
-		? "SELECT v.id, v.x, v.y, v.vertex, v.sequence, %s, g.point IS NOT NULL FROM %s AS v "
-		"LEFT JOIN (SELECT DISTINCT point FROM " LINE_ROWS ") AS g ON g.point = v.id "
+	const char *by_place = lines->shape.has_nameless || lines->shape.has_attributes
+		? "LEFT JOIN (SELECT DISTINCT point FROM " LINE_ROWS ") AS g ON g.point = v.id "
 		"LEFT JOIN (SELECT DISTINCT x, y FROM " LINE_ROWS ") AS p ON p.x = v.x AND p.y = v.y "
 		"WHERE g.point IS NOT NULL OR p.x IS NOT NULL"
-		: "SELECT v.id, v.x, v.y, v.vertex, v.sequence, %s, true FROM %s AS v "
-		"JOIN (SELECT DISTINCT point FROM " LINE_ROWS ") AS g ON g.point = v.id";
+		: "JOIN (SELECT DISTINCT point FROM " LINE_ROWS ") AS g ON g.point = v.id";
+	const char *named = lines->shape.has_places
+		? "JOIN (SELECT DISTINCT point, x, y FROM " LINE_ROWS ") AS g ON g.x = l.x AND g.y = l.y AND g.point = l.point"
+		: "JOIN (SELECT point FROM " LINE_ROWS " EXCEPT SELECT id FROM there) AS g ON g.point = l.point";
+	char	   *query = psprintf("WITH there AS MATERIALIZED (SELECT v.id, v.x, v.y, v.vertex, v.sequence, %s, "
+								 "g.point IS NOT NULL FROM %s AS v %s) TABLE there",
+								 lines->shape.has_attributes ? "v.attributes" : "NULL::float8[]",
+								 lines->vertices, by_place);
 
-	return named_rows_of_query(FOUND, columns, lengthof(columns),
-							   psprintf(query, attributes, lines->vertices));
+	if (lines->table != NULL)
+		query = psprintf("%s UNION ALL SELECT DISTINCT l.point, l.x, l.y, NULL::bigint, NULL::bigint, "
+						 "NULL::float8[], true FROM %s AS l %s", query, lines->table, named);
+	return named_rows_of_query(FOUND, columns, lengthof(columns), query);
 }
 
-/* An id that the mesh has at two places. */
+/* An id alone that the mesh has at two places. */
 static void
 check_found_ids(void)
 {
@@ -182,6 +161,39 @@ check_known(void)
 				 errhint("Insert it first with abacus_insert(), or give x and y after the id.")));
 }
 
+/* The place that a row gives for an id, the least or the greatest. */
+#define GIVEN_AT \
+	"SELECT x, y, line, position FROM " LINE_ROWS " WHERE point = '" INT64_FORMAT \
+	"' ORDER BY x %s, y %s, line, position LIMIT 1"
+
+/* An id that rows give with two places, of which the mesh lacks one. */
+static void
+check_ids(void)
+{
+	Datum		values[2];
+	Datum		first[4];
+	Datum		second[4];
+	bool		isnull[4];
+	int64		id;
+
+	if (!query_first("SELECT g.point FROM " LINE_ROWS " AS g LEFT JOIN " FOUND_PLACES
+					 " AS f ON f.id = g.point AND f.x = g.x AND f.y = g.y WHERE g.point IS NOT NULL GROUP BY g.point "
+					 "HAVING (min(g.x) <> max(g.x) OR min(g.y) <> max(g.y)) AND bool_or(f.id IS NULL) "
+					 "ORDER BY g.point LIMIT 1", values, isnull, 1))
+		return;
+	id = DatumGetInt64(values[0]);
+	query_first(psprintf(GIVEN_AT, id, "ASC", "ASC"), first, isnull, 4);
+	query_first(psprintf(GIVEN_AT, id, "DESC", "DESC"), second, isnull, 4);
+	ereport(ERROR,
+			(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+			 errmsg("point " INT64_FORMAT " is given with two places", id),
+			 errdetail("It is %s at position " INT64_FORMAT " of line " INT64_FORMAT ", and %s at position "
+					   INT64_FORMAT " of line " INT64_FORMAT ".", place(first), DatumGetInt64(first[3]),
+					   DatumGetInt64(first[2]), place(second), DatumGetInt64(second[3]),
+					   DatumGetInt64(second[2])),
+			 errhint("Give each place an id of its own, or NULL.")));
+}
+
 /* An id that rows give with another place than the mesh. */
 static void
 check_places(void)
@@ -190,8 +202,9 @@ check_places(void)
 	bool		isnull[7];
 
 	if (query_first("SELECT g.point, g.line, g.position, g.x, g.y, f.x, f.y FROM " LINE_ROWS " AS g "
-					"JOIN " FOUND " AS f ON f.id = g.point AND f.by_id WHERE f.x <> g.x OR f.y <> g.y "
-					"ORDER BY g.line, g.position LIMIT 1", values, isnull, 7))
+					"JOIN " FOUND_PLACES " AS f ON f.id = g.point LEFT JOIN " FOUND_PLACES
+					" AS same ON same.id = g.point AND same.x = g.x AND same.y = g.y WHERE same.id IS NULL "
+					"ORDER BY g.line, g.position, f.x, f.y LIMIT 1", values, isnull, 7))
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
 				 errmsg("point " INT64_FORMAT " is at another place in the mesh", DatumGetInt64(values[0])),
@@ -292,7 +305,7 @@ points_by_place(const NewLines *lines)
 		" CASE WHEN g.point IS NULL THEN n.is_new ELSE f.id IS NULL END, g.part "
 		"FROM " LINE_ROWS " AS g "
 		"LEFT JOIN numbered AS n ON g.point IS NULL AND n.x = g.x AND n.y = g.y "
-		"LEFT JOIN (SELECT DISTINCT id FROM " FOUND " WHERE by_id) AS f ON f.id = g.point",
+		"LEFT JOIN " FOUND_PLACES " AS f ON f.id = g.point AND f.x = g.x AND f.y = g.y",
 		greatest_id(lines));
 }
 
@@ -304,7 +317,7 @@ points_query(const NewLines *lines)
 		return points_by_place(lines);
 	return lines->shape.has_places
 		? "SELECT g.line, g.position, g.point, g.x, g.y, g.attributes, f.id IS NULL, g.part FROM " LINE_ROWS " AS g "
-		"LEFT JOIN (SELECT DISTINCT id FROM " FOUND " WHERE by_id) AS f ON f.id = g.point"
+		"LEFT JOIN " FOUND_PLACES " AS f ON f.id = g.point AND f.x = g.x AND f.y = g.y"
 		: "SELECT g.line, g.position, g.point, f.x, f.y, NULL::float8[], false, g.part FROM " LINE_ROWS " AS g "
 		"JOIN (SELECT DISTINCT id, x, y FROM " FOUND ") AS f ON f.id = g.point";
 }
@@ -341,11 +354,16 @@ line_points_find(const NewLines *lines)
 	NamedRows  *found = find(lines);
 	NamedRows  *points;
 
-	check_found_ids();
 	if (lines->shape.has_places)
+	{
 		check_places();
+		check_ids();
+	}
 	else
+	{
+		check_found_ids();
 		check_known();
+	}
 	if (lines->shape.has_attributes)
 		check_attributes(lines);
 	points = named_rows_of_query(LINE_POINTS, columns, lengthof(columns), points_query(lines));

@@ -13,6 +13,7 @@
 /* Lines being added to a mesh. */
 typedef struct NewLines
 {
+	const char *table;			/* of the lines that the mesh has, or NULL */
 	const char *vertices;		/* a call of abacus_vertices() for the mesh, in SQL */
 	abacus_names names;
 	const char *z;				/* attribute for the Z of geometries, or NULL */

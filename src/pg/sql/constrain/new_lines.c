@@ -52,6 +52,20 @@ new_lines_check_mesh(const Change *change)
 						 "abacus_triangulate().")));
 }
 
+/* ---- The table of lines ------------------------------------------------------------ */
+
+/* Runs a statement that must change so many rows of the table: a rule or a trigger may keep it from that. */
+static void
+change_rows(const char *table, const char *statement, uint64 rows)
+{
+	if (query_run(statement) != rows)
+		ereport(ERROR,
+				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
+				 errmsg("a rule or a trigger interferes with the table of lines"),
+				 errdetail("The table is %s.", table),
+				 errhint("Drop it. The table belongs to the mesh.")));
+}
+
 /* ---- Lines that go ------------------------------------------------------------------- */
 
 /*
@@ -61,12 +75,12 @@ new_lines_check_mesh(const Change *change)
 uint64
 new_lines_delete(Change *change, const char *table, const char *ids, int64 *soft)
 {
-	Datum		counts[2];
-	bool		isnull[2];
+	Datum		counts[3];
+	bool		isnull[3];
 
-	query_first(psprintf("SELECT count(*), count(*) FILTER (WHERE kind = 'soft') FROM "
-						 "(SELECT DISTINCT l.line, l.kind FROM %s AS l WHERE l.line IN (%s)) AS s",
-						 table, ids), counts, isnull, 2);
+	query_first(psprintf("SELECT count(*), count(*) FILTER (WHERE kind = 'soft'), coalesce(sum(n), 0)::bigint FROM "
+						 "(SELECT count(*) AS n, l.kind FROM %s AS l WHERE l.line IN (%s) GROUP BY l.line, l.kind) AS s",
+						 table, ids), counts, isnull, 3);
 	*soft = DatumGetInt64(counts[1]);
 	if (DatumGetInt64(counts[0]) == 0)
 		return 0;
@@ -74,7 +88,8 @@ new_lines_delete(Change *change, const char *table, const char *ids, int64 *soft
 	mesh_lines_add(change->writer.host, change->freed,
 				   psprintf("SELECT l.line, l.x, l.y, l.part, l.kind OPERATOR(pg_catalog.=) 'soft' FROM %s AS l WHERE l.line IN (%s) "
 							"ORDER BY l.line, l.position", table, ids));
-	query_run(psprintf("DELETE FROM %s AS l WHERE l.line IN (%s)", table, ids));
+	change_rows(table, psprintf("DELETE FROM %s AS l WHERE l.line IN (%s)", table, ids),
+				(uint64) DatumGetInt64(counts[2]));
 	return (uint64) DatumGetInt64(counts[0]);
 }
 
@@ -197,21 +212,6 @@ insert_points(Change *change)
 		change_insert(change);
 }
 
-static void
-tell_of_waiting(const Change *change)
-{
-	const abacus_census *census = &change->writer.header->facts.census;
-
-	if (census->lines_wait == 0)
-		return;
-	ereport(NOTICE,
-			(errmsg("lines of mesh \"%s\" wait for points", RelationGetRelationName(mesh_of(change))),
-			 errdetail(census->vertices == 0 ? "The mesh has no triangles yet."
-					   : "Some points of the mesh have not been inserted yet."),
-			 errhint("Their edges are fixed as soon as abacus_build() or abacus_insert() has inserted all "
-					 "points.")));
-}
-
 /* Fixes the edges of the new lines, and frees those of lines that they have replaced. */
 static void
 change_edges(Change *change, const char *kind)
@@ -220,7 +220,7 @@ change_edges(Change *change, const char *kind)
 	bool		fixed = census->lines_wait == 0;
 
 	if (change->freed != NULL)
-		change_unfix(change);	/* also fixes lines that have waited */
+		change_unfix(change);	/* also fixes lines that have waited, unless they cross */
 	if (!fixed || census->lines_wait > 0)
 		return;
 	mesh_lines_open(&change->writer, &change->fixed);
@@ -253,14 +253,10 @@ add_lines(Change *change, const NewLines *lines, const char *kind, ExistingLines
 		refuse_existing(table);
 	else
 		replaced = new_lines_delete(change, table, "SELECT line FROM " LINE_ROWS, &soft);
-	if (query_run(psprintf("INSERT INTO %s (line, position, point, x, y, kind, part) SELECT line, position, point, "
-						   "x, y, '%s', part FROM " LINE_POINTS " ORDER BY line, position", table, kind))
-		!= points->count)
-		ereport(ERROR,
-				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
-				 errmsg("a rule or a trigger of the table of lines keeps lines out"),
-				 errdetail("The table is %s.", table),
-				 errhint("Drop it. The table belongs to the mesh.")));
+	change_rows(table,
+				psprintf("INSERT INTO %s (line, position, point, x, y, kind, part) SELECT line, position, point, "
+						 "x, y, '%s', part FROM " LINE_POINTS " ORDER BY line, position", table, kind),
+				points->count);
 	if (is_new)
 		lines_table_index(mesh_of(change));
 	change_lines(change, DatumGetInt64(count) - (int64) replaced,
@@ -290,10 +286,12 @@ uint64
 new_lines_add(Change *change, Source *source, const char *vertices, const char *kind,
 			  ExistingLines existing, const char *z)
 {
-	NewLines	lines = {.vertices = vertices, .names = abacus_names_of(change->writer.header),.z = z};
+	Oid			table = mesh_lines_table(mesh_of(change), MESH_WRITE);
+	NewLines	lines = {.vertices = vertices,.names = abacus_names_of(change->writer.header),.z = z};
 	NamedRows  *rows = line_rows_read(source, lines.names, z, &lines.shape);
 	uint64		count = 0;
 
+	lines.table = OidIsValid(table) ? lines_table_name(table) : NULL;
 	if (rows->count > 0)
 	{
 		named_rows_register(rows);
@@ -303,7 +301,7 @@ new_lines_add(Change *change, Source *source, const char *vertices, const char *
 	if (count > 0)
 	{
 		change_take_srid(change, lines.shape.srid);
-		tell_of_waiting(change);
+		mesh_lines_notice_waiting(&change->writer);
 	}
 	return count;
 }
