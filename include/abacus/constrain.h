@@ -72,8 +72,8 @@ ABACUS_API abacus_status abacus_build_unfix(abacus_build *build, abacus_segments
 
 /*
  * vertex_at: whether the mesh as it is being changed has a vertex at a place; ABACUS_END if not. If
- * `record` is not NULL it gets id, coordinates and attributes, a word each; without it, the only call
- * that may follow a failure: that of fix, because of a crossing.
+ * `record` is not NULL it gets id, coordinates and attributes, a word each, which must not be apart;
+ * without it, the only call that may follow a failure: that of fix, because of a crossing.
  */
 ABACUS_API abacus_status abacus_build_vertex_at(abacus_build *build, const double place[2],
 												uint64_t *record, abacus_error *error);

@@ -49,6 +49,9 @@ template <int D> std::uint64_t Constraining<D>::unfix(Segments &segments) {
 
 template <int D> bool Constraining<D>::find_vertex(const Point<D> &p, std::uint64_t *record) {
     if constexpr (D == 2) {
+        if (record != nullptr && work_.apart)
+            throw Error(ABACUS_ERROR_STATE,
+                        "attributes that are apart are not read between changes");
         Delaunay<2> &mesh = work_.core->mesh;
         const Link corner = vertex_at(mesh, p);
         if (corner != unset && record != nullptr) {

@@ -119,6 +119,27 @@ SELECT throws_ok($$ SELECT abacus_track('ground', 'spot') $$, '55000', NULL, 'an
 SELECT is(abacus_track('ground', 'spot', synchronize => true), 36::bigint, 'which takes them out');
 SELECT pg_temp.in_step('synchronized');
 
+-- many attributes are apart from the simplices
+DO $$ DECLARE
+    names text := (SELECT string_agg('a' || i, ',') FROM generate_series(1, 40) AS i);
+BEGIN
+    EXECUTE 'CREATE TABLE wide (id int PRIMARY KEY, x float8, y float8, ' || replace(names, ',', ' float8,') || ' float8)';
+    INSERT INTO wide (id, x, y, a3, a40) SELECT i, i % 71, i / 71, i, -i FROM generate_series(0, 3000) AS i;
+    PERFORM abacus_create('wide_mesh', 2, ('{' || names || '}')::text[]);
+    PERFORM abacus_track('wide_mesh', 'wide');
+END $$;
+CREATE TABLE wide_line (id int, geom geometry);
+INSERT INTO wide_line VALUES (1, 'LINESTRING Z (0.5 0.5 7, 10.5 0.5 8)'), (2, 'LINESTRING Z (10.5 0.5 8, 10.5 9.5 9)');
+SELECT abacus_track_lines('wide_mesh', 'wide_line', z => 'a3');
+SELECT results_eq($$ SELECT id, attributes[3] FROM abacus_vertices('wide_mesh') WHERE id < 0 ORDER BY id DESC $$, 'VALUES (-1::bigint, 7::float8), (-2, 8), (-3, 9)', 'apart: vertices that lines make');
+UPDATE wide_line SET geom = 'LINESTRING Z (0.5 0.5 7, 10.5 0.25 5)' WHERE id = 1;
+INSERT INTO wide (id, x, y, a3) VALUES (9000, 0.5, 0.5, 7);
+SELECT results_eq($$ SELECT id, attributes[3] FROM abacus_vertices('wide_mesh') WHERE id < 0 ORDER BY id DESC $$, 'VALUES (-2::bigint, 8::float8), (-3, 9), (-4, 5)', 'apart: they come and go');
+DELETE FROM wide WHERE id = 9000;
+DELETE FROM wide_line;
+SELECT is((SELECT count(*) FROM abacus_vertices('wide_mesh') WHERE id < 0), 0::bigint, 'apart: all have gone');
+SELECT is_empty($$ SELECT * FROM abacus_check('wide_mesh') $$, 'apart: sound');
+
 -- rights: the writer of a table needs none on the mesh
 CREATE ROLE track_lines_owner; CREATE ROLE track_lines_writer;
 CREATE SCHEMA place; GRANT USAGE ON SCHEMA place TO track_lines_owner, track_lines_writer;

@@ -1,8 +1,7 @@
 /*
  * followed_points.c: vertices of a mesh that lines of a table have made, or name: removed and found.
  *
- * Each is looked up in the mesh as it is being changed. While all points wait, there are no vertices,
- * and one query finds the points.
+ * Each is looked up in the mesh as it is being changed, or one query finds all.
  */
 #include "postgres.h"
 
@@ -16,11 +15,16 @@
 
 #define ROWS_A_FETCH 1024
 
-/* Whether vertices are found one by one; otherwise all points wait, and a query finds them. */
+/*
+ * Whether vertices are looked up one by one. Otherwise a query finds points: those that wait, and
+ * those whose attributes are apart, in pages of their own.
+ */
 static bool
-has_triangles(const FollowedLines *lines)
+are_looked_up(const FollowedLines *lines)
 {
-	return lines->change->writer.header->facts.census.vertices > 0;
+	const abacus_facts *facts = &lines->change->writer.header->facts;
+
+	return facts->census.vertices > 0 && !facts->columns.apart;
 }
 
 /* Reads the vertex at a place, as its record; false if there is none. */
@@ -81,7 +85,7 @@ stage_made(FollowedLines *lines, HeapTuple tuple, TupleDesc desc, uint64 *record
 
 /* The same with the attributes in the row. */
 static void
-stage_waiting(FollowedLines *lines, HeapTuple tuple, TupleDesc desc, uint64 *record)
+stage_found(FollowedLines *lines, HeapTuple tuple, TupleDesc desc, uint64 *record)
 {
 	double	   *numbers = (double *) (record + 1);
 	int			count = (int) lines->change->writer.header->facts.columns.attributes;
@@ -99,9 +103,9 @@ stage_waiting(FollowedLines *lines, HeapTuple tuple, TupleDesc desc, uint64 *rec
 	change_add(lines->change, record, 1);
 }
 
-/* A query for points that wait and were made. */
+/* A query for the points of these vertices, with their attributes. */
 static char *
-waiting_made(const FollowedLines *lines)
+found_made(const FollowedLines *lines)
 {
 	StringInfoData query;
 
@@ -123,12 +127,12 @@ followed_points_remove(FollowedLines *lines)
 	if (lines->gone->count == 0)
 		return;
 	change_open_stage(change, &change->writer.header->facts);
-	if (has_triangles(lines))
+	if (are_looked_up(lines))
 		each_row(lines, "SELECT point, x, y FROM " MADE_GONE, stage_made);
 	else
 	{
 		change_show(change);
-		each_row(lines, waiting_made(lines), stage_waiting);
+		each_row(lines, found_made(lines), stage_found);
 	}
 	if (change->points > 0)
 		(void) change_delete(change, true);
@@ -165,7 +169,7 @@ followed_points_find(FollowedLines *lines)
 {
 	bool		by_place = lines->lines.shape.has_nameless;
 
-	if (by_place ? !has_triangles(lines) : !lines->lines.is_known)
+	if (by_place ? !are_looked_up(lines) : !lines->lines.is_known)
 	{
 		change_show(lines->change);
 		return line_points_scan(&lines->lines);

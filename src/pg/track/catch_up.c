@@ -147,6 +147,7 @@ let_lines_leave(CatchUp *up)
 	ListCell   *cell;
 
 	become(up, up->tracked->user);
+	new_lines_check_mesh(up->change);
 	up->followed = followed_lines_begin(up->change, lines_table_require(mesh, MESH_WRITE), all);
 	foreach(cell, all ? NIL : up->behind)
 	{
