@@ -20,7 +20,7 @@ FOLDERS = {"abacus": "sql/install", "abacus_postgis": "sql/install_postgis", "ab
            "abacus_lab": "sql/install_lab"}
 FUNCTION = re.compile(r"^CREATE (?:OR REPLACE )?(FUNCTION|PROCEDURE) (\w+)\((.*?)\)\s*\n?(?:RETURNS (\w[\w ]*(?:\[\])?)\s)?", re.M | re.S)
 COMMENT = re.compile(r"^COMMENT ON (?:FUNCTION|PROCEDURE) (\w+)\((.*?)\) IS\s+'((?:[^']|'')*)';", re.M | re.S)
-INSIDE = re.compile(r"^(_|abacus_page_|abacus_fdw_|abacus_tracked$|abacus_published$)")
+INSIDE = re.compile(r"^(_|abacus_page_|abacus_fdw_|abacus_tracked(_lines)?$|abacus_published$)")
 SHORT = {"double precision": "float8", "SETOF": "setof"}
 WIDTH = 118
 REGION = re.compile(r"(<!-- begin ([\w() ]+) -->\n)(.*?)(<!-- end -->)", re.S)

@@ -37,7 +37,7 @@ short_sets="wheel octree duplicates"
 # Each suite and its command, in the order in which they begin, each as soon as its needs have passed.
 suites=(format layout build-extension build tap build-benchmarks build-sanitized build-threads
     postgresql-17 postgresql-18 viewer unit-sanitized unit-threads unit acceptance unit-apart oracles pgtap
-    regress isolation docs model model-lines fuzz reports acceptance-goose oracles-large tidy bench evaluation)
+    regress isolation docs model model-lines model-track fuzz reports acceptance-goose oracles-large tidy bench evaluation)
 declare -A command=(
     [format]=format_check
     [layout]=layout_check
@@ -64,6 +64,7 @@ declare -A command=(
     [acceptance-goose]="scripts/acceptance.sh goose"
     [model]="scripts/model_test.sh -t 30"
     [model-lines]="scripts/model_test.sh lines -t 20"
+    [model-track]="scripts/model_test.sh track -t 20"
     [reports]=report_tests
     [bench]="scripts/bench.sh smoke"
     [evaluation]="scripts/evaluation.sh smoke"
@@ -75,7 +76,7 @@ declare -A needs=([unit]=build [unit-apart]=build [build-sanitized]=build [build
     [unit-sanitized]=build-sanitized [unit-threads]=build-threads [fuzz]=build-sanitized
     [bench]=build-benchmarks [evaluation]=build-benchmarks)
 for name in build regress isolation pgtap docs viewer tap; do needs[$name]=build-extension; done
-for name in acceptance acceptance-goose model model-lines oracles oracles-large postgresql-17 postgresql-18; do needs[$name]=build; done
+for name in acceptance acceptance-goose model model-lines model-track oracles oracles-large postgresql-17 postgresql-18; do needs[$name]=build; done
 if [[ -n ${ABACUS_SHORT:-} ]]; then needs[acceptance]=build-extension; fi # the oracle was brought
 
 # The line of a log that says how much was tested.

@@ -81,11 +81,12 @@ ABACUS_API abacus_status abacus_build_unfix(abacus_build *build, abacus_segments
 											abacus_header *header, abacus_error *error);
 
 /*
- * vertex_at: whether the mesh as it is being changed has a vertex at a place; ABACUS_END if not. The
- * only call that may follow a failure: that of fix, because of a crossing.
+ * vertex_at: whether the mesh as it is being changed has a vertex at a place; ABACUS_END if not. If
+ * `record` is not NULL it gets id, coordinates and attributes, a word each, which must not be apart;
+ * without it, the only call that may follow a failure: that of fix, because of a crossing.
  */
 ABACUS_API abacus_status abacus_build_vertex_at(abacus_build *build, const double place[2],
-												abacus_error *error);
+												uint64_t *record, abacus_error *error);
 
 /* ---- Reading --------------------------------------------------------------------------- */
 

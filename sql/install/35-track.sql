@@ -25,3 +25,23 @@ AS 'MODULE_PATHNAME', 'abacus_sql_untrack'
 LANGUAGE C VOLATILE STRICT PARALLEL UNSAFE;
 COMMENT ON FUNCTION abacus_untrack(regclass, regclass) IS
     'ends abacus_track: drops its triggers. The owner of the table or of the mesh may call it. The mesh stays as it is, and can be changed by hand again. Errors: 42704 the mesh does not follow the table, 42501 neither is the caller''s';
+
+CREATE FUNCTION abacus_tracked_lines()
+RETURNS trigger
+AS 'MODULE_PATHNAME', 'abacus_sql_tracked_lines'
+LANGUAGE C;
+COMMENT ON FUNCTION abacus_tracked_lines() IS
+    'trigger that keeps a mesh in step with a table of lines; made by abacus_track_lines()';
+
+CREATE FUNCTION abacus_track_lines(
+    mesh regclass,
+    "table" regclass,
+    columns text[] DEFAULT NULL,
+    kind text DEFAULT 'hard',
+    z text DEFAULT NULL,
+    synchronize boolean DEFAULT false)
+RETURNS bigint
+AS 'MODULE_PATHNAME', 'abacus_sql_track_lines'
+LANGUAGE C VOLATILE PARALLEL UNSAFE;
+COMMENT ON FUNCTION abacus_track_lines(regclass, regclass, text[], text, text, boolean) IS
+    'keeps the fixed edges of a mesh in step with a table of lines from now on, by triggers, at commit. A mesh without lines gets those of the table; another must have them or, with synchronize, gets the lines that differ. Meanwhile its lines cannot be changed by hand. A corner of a geometry where the mesh has no point becomes a vertex, with a negative id, as long as a line has it. Returns the number of lines. Shapes: columns names line and a geometry of PostGIS, whose Z becomes the attribute z, or line, position, point[, part], where points are ids of the table that the mesh follows, or else of the mesh; kind is hard, soft, or the column that says it. Errors: those of abacus_track and abacus_constrain, when the mesh catches up';

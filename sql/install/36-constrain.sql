@@ -2,7 +2,7 @@
 
 CREATE TYPE abacus_line_point AS (
     line bigint, position bigint, point bigint, x double precision, y double precision, kind text,
-    part bigint);
+    part bigint, made boolean);
 COMMENT ON TYPE abacus_line_point IS 'row of the table of lines of a mesh: a point of a line';
 COMMENT ON COLUMN abacus_line_point.line IS 'id of the line';
 COMMENT ON COLUMN abacus_line_point.position IS 'place in the order of the line''s points';
@@ -11,6 +11,7 @@ COMMENT ON COLUMN abacus_line_point.x IS 'where the point is; what counts for th
 COMMENT ON COLUMN abacus_line_point.y IS 'the same';
 COMMENT ON COLUMN abacus_line_point.kind IS 'hard or soft, the same for all points of a line';
 COMMENT ON COLUMN abacus_line_point.part IS 'part of the line: neighbours are joined if theirs is the same; NULL in a line of one part';
+COMMENT ON COLUMN abacus_line_point.made IS 'true if a line of a table that the mesh follows has made the vertex, which goes with the last line that names it';
 
 CREATE FUNCTION abacus_constrain(
     mesh regclass,

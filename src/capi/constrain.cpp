@@ -61,7 +61,7 @@ abacus_status abacus_build_unfix(abacus_build *build, abacus_segments *segments,
     });
 }
 
-abacus_status abacus_build_vertex_at(abacus_build *build, const double place[2],
+abacus_status abacus_build_vertex_at(abacus_build *build, const double place[2], uint64_t *record,
                                      abacus_error *error) {
     using namespace abacus;
     return guard(error, [&] {
@@ -69,7 +69,7 @@ abacus_status abacus_build_vertex_at(abacus_build *build, const double place[2],
             if constexpr (D != 2)
                 throw Error(ABACUS_ERROR_ARGUMENT, "lines need a mesh of dimension 2");
             else
-                return opened.has_vertex(finite_point<2>(place)) ? ABACUS_OK : ABACUS_END;
+                return opened.find_vertex(finite_point<2>(place), record) ? ABACUS_OK : ABACUS_END;
         });
     });
 }

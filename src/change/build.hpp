@@ -70,8 +70,11 @@ public:
     void fix(Segments &segments, abacus_header &header);
     /// Inserts what waits, then frees the edges of segments over which the host has no line.
     void unfix(Segments &segments, abacus_header &header);
-    /// Whether there is a vertex at p, also after fix() has met a crossing.
-    bool has_vertex(const Point<D> &p) { return constraining_.has_vertex(p); }
+    /// Whether there is a vertex at p, and its record unless that is null; without one, also after
+    /// fix() has met a crossing.
+    bool find_vertex(const Point<D> &p, std::uint64_t *record) {
+        return constraining_.find_vertex(p, record);
+    }
     /// Gives a mesh whose domain does not fit its points another one, with `memory` bytes for
     /// sorting; false if there is no better one.
     bool rekey(std::size_t memory, abacus_header &header);

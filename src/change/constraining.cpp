@@ -69,12 +69,19 @@ template <int D> std::uint64_t Constraining<D>::unfix(Segments &segments) {
     }
 }
 
-template <int D> bool Constraining<D>::has_vertex(const Point<D> &p) {
+template <int D> bool Constraining<D>::find_vertex(const Point<D> &p, std::uint64_t *record) {
     if constexpr (D == 2) {
+        if (record != nullptr && work_.apart)
+            throw Error(ABACUS_ERROR_STATE,
+                        "attributes that are apart are not read between changes");
         Delaunay<2> &mesh = work_.core->mesh;
-        const bool has = vertex_at(mesh, p) != unset;
+        const Link corner = vertex_at(mesh, p);
+        if (corner != unset && record != nullptr) {
+            const Simplex<2> &s = mesh.cache().simplex(link_simplex(corner));
+            work_.read_vertex(s.vertex[link_facet(corner)], record);
+        }
         mesh.finish(mesh.anywhere);
-        return has;
+        return corner != unset;
     } else {
         throw Error(ABACUS_ERROR_ARGUMENT, "lines need a mesh of dimension 2");
     }

@@ -21,8 +21,8 @@ public:
     std::uint64_t fix(Segments &segments);
     /// Frees the edges of all segments over which the host has no line.
     std::uint64_t unfix(Segments &segments);
-    /// Whether the mesh has a vertex at p.
-    bool has_vertex(const Point<D> &p);
+    /// Whether the mesh has a vertex at p, and its record unless that is null.
+    bool find_vertex(const Point<D> &p, std::uint64_t *record);
 
 private:
     Deed deed() const override { return Deed::fix; }

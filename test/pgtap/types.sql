@@ -75,6 +75,8 @@ INSERT INTO wanted VALUES
     ('abacus_stage', 'mesh regclass, query text', 'bigint', 'v', true, 'u'),
     ('abacus_track', 'mesh regclass, "table" regclass, columns text[] DEFAULT NULL::text[], synchronize boolean DEFAULT false, deferred boolean DEFAULT false', 'bigint', 'v', false, 'u'),
     ('abacus_tracked', '', 'trigger', 'v', false, 'u'),
+    ('abacus_track_lines', 'mesh regclass, "table" regclass, columns text[] DEFAULT NULL::text[], kind text DEFAULT ''hard''::text, z text DEFAULT NULL::text, synchronize boolean DEFAULT false', 'bigint', 'v', false, 'u'),
+    ('abacus_tracked_lines', '', 'trigger', 'v', false, 'u'),
     ('abacus_untrack', 'mesh regclass, "table" regclass', 'void', 'v', true, 'u'),
     ('abacus_triangulate', 'mesh regclass', 'bigint', 'v', true, 'u'),
     ('abacus_triangulate', 'mesh text, query text, attributes text[] DEFAULT NULL::text[], dimension integer DEFAULT 2, lower double precision[] DEFAULT NULL::double precision[], upper double precision[] DEFAULT NULL::double precision[], lines text DEFAULT NULL::text', 'bigint', 'v', false, 'u'),

@@ -32,6 +32,10 @@ GRANT INSERT ON wells TO guest;
 INSERT INTO wells SELECT i, i * 7919 % 101, i * 104729 % 97 FROM generate_series(1, 500) AS i;
 SELECT abacus_create('field', 2);
 SELECT abacus_track('field', 'wells');
+CREATE TABLE walls (line int, position int, point int);
+GRANT INSERT ON walls TO guest;
+INSERT INTO walls VALUES (1, 1, 100), (1, 2, 200);
+SELECT abacus_track_lines('field', 'walls');
 SQL
 
 sub bound
@@ -59,6 +63,13 @@ SELECT (SELECT count(*) FROM (TABLE s.wells EXCEPT ALL TABLE there) AS a)
 SQL
 }
 
+sub lines
+{
+	my ($database, $mesh) = @_;
+	return $node->safe_psql($database,
+		"SELECT line, position, point FROM abacus.abacus_lines('$mesh')");
+}
+
 $node->command_ok([ 'pg_dump', '-d', $node->connstr('origin'), '-Fc', '-f', $dump ], 'dumped');
 for my $database ('built', 'written')
 {
@@ -67,24 +78,31 @@ for my $database ('built', 'written')
 	my $insert = 'INSERT INTO s.wells VALUES (1000, 3.5, 4.5)';
 	like(as('guest', $database, $insert), qr/permission denied for table field/,
 		"$database: who has no rights on the mesh has to wait");
+	my $wall = 'INSERT INTO s.walls VALUES (2, 1, 100), (2, 2, 1000)';
+	like(as('guest', $database, $wall), qr/permission denied for table field/, "$database: for lines as well");
 	# one binds them by changing the mesh, the other by changing the table
 	is($database eq 'built'
 		? as('owner', $database, "CALL abacus.abacus_build('s.field')")
 		: as('owner', $database, 'DELETE FROM s.wells WHERE id < 10'), '', "$database: the owner writes");
-	is(bound($database), 4, "$database: all triggers are bound");
+	is(bound($database), 8, "$database: all triggers are bound");
 	is(as('owner', $database, 'ALTER TABLE s.field RENAME TO meadow'), '', "$database: renamed");
 	is(as('guest', $database, $insert), '', "$database: now everybody writes");
 	is(differences($database, 's.meadow'), 0, "$database: the mesh follows");
+	is(as('guest', $database, $wall), '', "$database: and draws lines");
+	is(lines($database, 's.meadow'), "1|1|100\n1|2|200\n2|1|100\n2|2|1000", "$database: which the mesh has");
 	$node->safe_psql('postgres', "ALTER DATABASE $database SET search_path = public, abacus");
 	is_sound($node, $database, 's.meadow', "$database: the mesh");
 	$node->safe_psql($database, 'DROP TABLE s.meadow');
-	is($node->safe_psql($database, "SELECT count(*) FROM pg_trigger WHERE tgrelid = 's.wells'::regclass"),
+	is($node->safe_psql($database,
+			"SELECT count(*) FROM pg_trigger WHERE tgrelid IN ('s.wells'::regclass, 's.walls'::regclass)"),
 		0, "$database: the triggers go with the mesh");
 }
 
 # a crash empties both, and the rest of the mesh reports that
 $node->safe_psql('origin', <<'SQL');
 SET search_path = s, abacus;
+SELECT abacus_untrack('field', 'walls');
+SELECT abacus_unconstrain('field', 'VALUES (1)');
 ALTER TABLE wells SET UNLOGGED;
 ALTER TABLE field SET UNLOGGED;
 ALTER TABLE field_vertices SET UNLOGGED;

@@ -217,6 +217,16 @@ settle_lines(Change *change)
 	mesh_lines_fix_waiting(&change->writer, change->build, &change->fixed);
 }
 
+/* Without triangles, lines wait. */
+static void
+let_lines_wait(Change *change)
+{
+	abacus_census *census = &change->writer.header->facts.census;
+
+	if (census->lines > 0 && census->vertices == 0)
+		census->lines_wait = 1;
+}
+
 /*
  * Removes the points of the stage; with `exactly`, only points with the same id and attributes.
  * Returns how many there were.
@@ -229,9 +239,11 @@ change_delete(Change *change, bool exactly)
 
 	change_open_build(change);
 	settle_lines(change);
-	mesh_lines_refuse_waiting(&change->writer);
+	if (!change->knows_lines)
+		mesh_lines_refuse_waiting(&change->writer);
 	host_run(host, abacus_build_delete, change->build, change->stage, exactly,
 			 change->writer.header, &deleted);
+	let_lines_wait(change);
 	return deleted;
 }
 
@@ -344,10 +356,7 @@ change_abandon(Change *change)
 void
 change_end(Change *change)
 {
-	abacus_census *census = &change->writer.header->facts.census;
-
-	if (census->lines > 0 && census->vertices == 0)
-		census->lines_wait = 1;
+	let_lines_wait(change);
 	notice_duplicates(&change->writer, change->duplicates, change->may_replace);
 	if (change->inserts)
 		notice_waiting(&change->writer);

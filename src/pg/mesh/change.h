@@ -23,6 +23,7 @@ typedef struct Change
 	bool		inserts;
 	bool		holds;			/* labels and markers, until it is settled */
 	bool		returns;		/* which simplices it creates and removes */
+	bool		knows_lines;	/* no line names a point that it deletes, even while lines wait */
 	abacus_load *load;			/* a triangulation made elsewhere */
 	abacus_labelling *labelling;
 	abacus_marking *marking;

@@ -10,6 +10,7 @@
 
 #include "access/xact.h"
 #include "catalog/pg_class.h"
+#include "commands/defrem.h"
 #include "miscadmin.h"
 #include "utils/acl.h"
 #include "utils/builtins.h"
@@ -123,6 +124,22 @@ lines_table_index(Relation mesh)
 	Oid			table = mesh_lines_table(mesh, MESH_WRITE);
 
 	create(mesh, psprintf("CREATE INDEX ON %s (x, y)", lines_table_name(table)), get_rel_name(table));
+}
+
+/*
+ * Makes the index on vertices that lines have made, for a mesh that follows lines: unless it is there,
+ * or the user is not the owner. Without it, the least id is found by reading all rows.
+ */
+void
+lines_table_index_made(Relation mesh)
+{
+	Oid			table = mesh_lines_table(mesh, MESH_WRITE);
+	char	   *name = makeObjectName(get_rel_name(table), "made", "idx");
+
+	if (object_ownercheck(RelationRelationId, table, GetUserId()) &&
+		!OidIsValid(get_relname_relid(name, get_rel_namespace(table))))
+		create(mesh, psprintf("CREATE INDEX %s ON %s (point) WHERE made", quote_identifier(name),
+							  lines_table_name(table)), get_rel_name(table));
 }
 
 /* The table of the lines of a mesh that has lines, so it must be there. */

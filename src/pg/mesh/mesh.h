@@ -12,7 +12,7 @@
 #define VERTEX_PAGE_TYPE "abacus_vertex_page"
 #define VERTEX_TABLE_SUFFIX "_vertices"
 #define LINE_POINT_TYPE "abacus_line_point"
-#define LINE_POINT_COLUMNS 7
+#define LINE_POINT_COLUMNS 8
 #define LINES_TABLE_SUFFIX "_lines"
 
 /* What a caller intends to do, which decides the lock and the privileges it needs. */

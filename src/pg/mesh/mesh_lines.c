@@ -227,7 +227,7 @@ is_vertex(void *context, const double *place)
 {
 	const MeshBuild *changed = context;
 
-	return host_run(changed->host, abacus_build_vertex_at, changed->build, place) == ABACUS_OK;
+	return host_run(changed->host, abacus_build_vertex_at, changed->build, place, NULL) == ABACUS_OK;
 }
 
 /*

@@ -7,6 +7,7 @@
 #include "pg/mesh/change.h"
 
 extern void by_hand_refuse_points(const Change *change);
+extern void by_hand_refuse_lines(const Change *change);
 extern void by_hand_refuse_attributes(const Change *change);
 
 #endif

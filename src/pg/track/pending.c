@@ -1,10 +1,9 @@
 /*
  * pending.c: the changes that meshes which follow at commit still have to make.
  *
- * Statements note the points that they have added and removed in a log, one for each mesh. Before
- * the transaction commits, or is prepared, each mesh is changed once: first all new points are
- * inserted, then those that are gone are deleted, so every deleted point is there, old or new. By
- * then deferred constraints have been checked and deferred triggers have fired, so these may still
+ * Statements note the points that they have added and removed in a log, one for each mesh, and the
+ * ids of the lines that they have changed in another one. Before the transaction commits, or is
+ * prepared, each mesh is changed once (catch_up.c). By then deferred constraints have been checked and deferred triggers have fired, so these may still
  * change tables. An error ends the transaction like an error of theirs. Meshes are changed in the
  * order of their OIDs, and a transaction that has locked one of them no longer waits for rows.
  *
@@ -24,42 +23,11 @@
 #include "utils/memutils.h"
 #include "utils/syscache.h"
 
-#include "pg/track/in_step.h"
-#include "pg/track/pending.h"
-#include "pg/track/point_log.h"
+#include "pg/track/catch_up.h"
+#include "pg/track/pending_parts.h"
 
 /* Points read from the log at once. */
 #define POINTS_A_BATCH 1024
-
-/* The part of a log that counts. */
-typedef struct Extent
-{
-	uint64		start;			/* in bytes */
-	uint64		end;
-	uint64		came;			/* points */
-	uint64		went;
-} Extent;
-
-/* The state that a nested transaction found. */
-typedef struct Saved
-{
-	SubTransactionId of;
-	Extent		extent;
-} Saved;
-
-struct Pending
-{
-	Oid			mesh;
-	Oid			user;			/* whose rights are used to change it */
-	char	   *table;			/* for messages, like the trigger */
-	char	   *trigger;
-	ExpectedShape shape;		/* of the mesh */
-	uint32		srid;			/* of the mesh, or of the noted geometries; 0: none */
-	PointLog   *log;
-	Extent		extent;
-	List	   *saved;			/* the innermost transaction's first */
-	Pending    *next;
-};
 
 /* Both in TopTransactionContext. */
 static Pending *all = NULL;
@@ -107,18 +75,23 @@ check_mesh(Oid mesh, Oid user, bool wants_srid)
 	return srid;
 }
 
-/* The notes of a mesh that is changed with the rights of this user. */
+static bool
+is_same(const PendingTable *a, const Pending *b)
+{
+	return a->mesh == b->mesh && a->user == b->user && a->kind == b->kind &&
+		a->shape.dimension == b->shape.dimension && a->shape.columns == b->shape.columns &&
+		a->shape.dropped == b->shape.dropped;
+}
+
+/* The notes of a mesh that follows a table, and is changed with the rights of a user. */
 Pending *
-pending_open(Oid mesh, Oid user, const TriggerData *trigger, const Transition *transition)
+pending_open(const PendingTable *table)
 {
 	Pending    *pending = all;
-	uint32		srid = check_mesh(mesh, user, transition->inputs < transition->columns);
+	uint32		srid = check_mesh(table->mesh, table->user, table->has_geometries);
 	MemoryContext old;
 
-	while (pending != NULL && !(pending->mesh == mesh && pending->user == user &&
-								pending->shape.dimension == transition->dimension &&
-								pending->shape.columns == transition->columns &&
-								pending->shape.dropped == transition->dropped))
+	while (pending != NULL && !is_same(table, pending))
 		pending = pending->next;
 	if (pending != NULL)
 	{
@@ -127,11 +100,12 @@ pending_open(Oid mesh, Oid user, const TriggerData *trigger, const Transition *t
 	}
 	old = MemoryContextSwitchTo(TopTransactionContext);
 	pending = palloc0(sizeof(Pending));
-	pending->mesh = mesh;
-	pending->user = user;
-	pending->table = pstrdup(RelationGetRelationName(trigger->tg_relation));
-	pending->trigger = pstrdup(trigger->tg_trigger->tgname);
-	pending->shape = transition_expected(transition);
+	pending->mesh = table->mesh;
+	pending->kind = table->kind;
+	pending->user = table->user;
+	pending->table = pstrdup(table->name);
+	pending->trigger = pstrdup(table->trigger);
+	pending->shape = table->shape;
 	pending->srid = srid;
 	pending->log = point_log_create(TopTransactionContext);
 	pending->next = all;
@@ -198,6 +172,7 @@ forget(Pending *pending)
 	save_extent(pending);
 	pending->extent.start = pending->extent.end;
 	pending->extent.came = pending->extent.went = 0;
+	pending->extent.all = false;
 }
 
 /* The mesh has been emptied, and so has its table. */
@@ -205,22 +180,27 @@ void
 pending_forget(Oid mesh)
 {
 	for (Pending *pending = all; pending != NULL; pending = pending->next)
-		if (pending->mesh == mesh)
+		if (pending->mesh == mesh && pending->kind == TRACKED_POINTS)
 			forget(pending);
 }
 
-/* ---- Catching up --------------------------------------------------------- */
+/* Notes that the table has been emptied: all its points are gone, or all its lines have changed. */
+void
+pending_add_all(Pending *pending)
+{
+	forget(pending);
+	pending->extent.all = true;
+}
 
-/* Stages the points that are new, or those that are gone. */
-static void
-stage(Pending *pending, bool gone, Change *change)
+/* Passes on the points that are new, those that are gone, or the lines that have changed. */
+void
+pending_read(const Pending *pending, bool gone, PendingSink sink, void *context)
 {
 	size_t		words = 1 + pending->shape.columns;
 	uint64	   *records = palloc(POINTS_A_BATCH * words * sizeof(uint64));
 	uint64	   *points = palloc(POINTS_A_BATCH * pending->shape.columns * sizeof(uint64));
 	uint64		at = pending->extent.start;
 
-	change_open_stage(change, &change->writer.header->facts);
 	while (at < pending->extent.end)
 	{
 		size_t		size = Min(POINTS_A_BATCH * words * sizeof(uint64), pending->extent.end - at);
@@ -234,78 +214,59 @@ stage(Pending *pending, bool gone, Change *change)
 				memcpy(points + count++ * pending->shape.columns, record + 1,
 					   pending->shape.columns * sizeof(uint64));
 		if (count > 0)
-			change_add(change, points, count);
+			sink(context, points, count);
 	}
 	pfree(records);
 	pfree(points);
 }
 
-static void
-change_mesh(Pending *pending)
-{
-	Change	   *change = change_begin(pending->mesh, "abacus_track()");
+/* ---- Catching up --------------------------------------------------------- */
 
-	in_step_check_shape(change, pending->shape, pending->trigger);
-	in_step_check_srid(change, (int32) pending->srid);
-	change_hold(change);
-	if (pending->extent.came > 0)
-	{
-		stage(pending, false, change);
-		change_insert(change);
-	}
-	if (pending->extent.went > 0)
-	{
-		stage(pending, true, change);
-		in_step_check_found(change, pending->table, "delete", pending->extent.went,
-							change_delete(change, true));
-	}
-	change_settle(change);
-	change_end(change);
+static bool
+is_behind(const Pending *pending)
+{
+	return pending->extent.came + pending->extent.went > 0 || pending->extent.all;
 }
 
-/* Applies the notes to the mesh. */
-static void
-catch_up(Pending *pending)
+/* The least OID of a mesh that has notes; InvalidOid if there is none. */
+static Oid
+next_behind(void)
 {
-	MemoryContext memory = AllocSetContextCreate(TopTransactionContext, "Abacus deferred change",
-												 ALLOCSET_DEFAULT_SIZES);
-	MemoryContext old = MemoryContextSwitchTo(memory);
-	Oid			user;
-	int			security;
-
-	GetUserIdAndSecContext(&user, &security);
-	SetUserIdAndSecContext(pending->user, security | SECURITY_LOCAL_USERID_CHANGE);
-	/* if it was dropped meanwhile, it need not follow */
-	if (SearchSysCacheExists1(RELOID, ObjectIdGetDatum(pending->mesh)))
-		change_mesh(pending);
-	SetUserIdAndSecContext(user, security);
-	forget(pending);
-	MemoryContextSwitchTo(old);
-	MemoryContextDelete(memory);
-}
-
-/* The mesh with the least OID that has notes; only `mesh`, if it is valid. */
-static Pending *
-next_behind(Oid mesh)
-{
-	Pending    *found = NULL;
+	Oid			mesh = InvalidOid;
 
 	for (Pending *pending = all; pending != NULL; pending = pending->next)
-		if (pending->extent.came + pending->extent.went > 0 &&
-			(!OidIsValid(mesh) || pending->mesh == mesh) &&
-			(found == NULL || pending->mesh < found->mesh))
-			found = pending;
-	return found;
+		if (is_behind(pending) && (!OidIsValid(mesh) || pending->mesh < mesh))
+			mesh = pending->mesh;
+	return mesh;
 }
 
-/* Lets the mesh catch up with its table now; given InvalidOid, all meshes. */
+/* Lets a mesh catch up with its tables. */
+static void
+settle(Oid mesh)
+{
+	List	   *behind = NIL;
+	ListCell   *cell;
+
+	for (Pending *pending = all; pending != NULL; pending = pending->next)
+		if (pending->mesh == mesh && is_behind(pending))
+			behind = lappend(behind, pending);
+	if (behind == NIL)
+		return;
+	catch_up(mesh, behind);
+	foreach(cell, behind)
+		forget(lfirst(cell));
+	list_free(behind);
+}
+
+/* Lets the mesh catch up with its tables now; given InvalidOid, all meshes. */
 void
 pending_settle(Oid mesh)
 {
-	Pending    *pending;
-
-	while ((pending = next_behind(mesh)) != NULL)
-		catch_up(pending);
+	if (OidIsValid(mesh))
+		settle(mesh);
+	else
+		while (OidIsValid(mesh = next_behind()))
+			settle(mesh);
 }
 
 static void

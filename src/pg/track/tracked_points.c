@@ -60,8 +60,8 @@ given_names(ArrayType *given, const abacus_facts *facts, Relation table)
 }
 
 /* The only column of a table that is a geometry; NULL if there is none, or several. */
-static char *
-only_geometry(Relation table)
+char *
+tracked_only_geometry(Relation table)
 {
 	TupleDesc	desc = RelationGetDescr(table);
 	char	   *found = NULL;
@@ -84,7 +84,7 @@ static List *
 default_names(abacus_names mesh, Relation table)
 {
 	char	   *geometry = OidIsValid(column_type(table, row_packer_column(mesh, 1))) ? NULL
-		: only_geometry(table);
+		: tracked_only_geometry(table);
 	List	   *names = NIL;
 
 	for (int i = 0; i < (int) (1 + mesh.facts->form.dimension + mesh.facts->columns.attributes); i++)
@@ -219,6 +219,13 @@ append_packed(StringInfo query, Relation table, List *columns, int number, int d
 }
 
 static char *
+table_name(Relation table)
+{
+	return quote_qualified_identifier(get_namespace_name(RelationGetNamespace(table)),
+									  RelationGetRelationName(table));
+}
+
+static char *
 select_points(Relation table, List *columns, int dimension, bool packed, const char *from)
 {
 	StringInfoData query;
@@ -233,8 +240,7 @@ select_points(Relation table, List *columns, int dimension, bool packed, const c
 			appendStringInfo(&query, "t.%s", quote_identifier(list_nth(columns, i)));
 	}
 	appendStringInfo(&query, " %s %s AS t WHERE ", from,
-					 quote_qualified_identifier(get_namespace_name(RelationGetNamespace(table)),
-												RelationGetRelationName(table)));
+					 table_name(table));
 	for (int i = 1; i <= place_columns(table, columns, dimension); i++)
 		appendStringInfo(&query, "%st.%s IS NOT NULL", i > 1 ? " AND " : "",
 						 quote_identifier(list_nth(columns, i)));
@@ -275,9 +281,40 @@ tracked_points_of_one_table(Relation table, List *columns, int dimension)
 	return select_points(table, columns, dimension, false, "FROM ONLY");
 }
 
-/* SELECT of the points of the mesh. */
+/* SELECT of id, x and y of the table's points that have certain ids; `ids` is a query for them. */
 char *
-tracked_points_of_mesh(Oid mesh, const abacus_facts *facts, Oid extension_namespace)
+tracked_places(Relation table, List *columns, const char *ids)
+{
+	StringInfoData query;
+
+	initStringInfo(&query);
+	appendStringInfoString(&query, "SELECT DISTINCT ");
+	for (int i = 0; i <= place_columns(table, columns, 2); i++)
+	{
+		appendStringInfoString(&query, i > 0 ? ", " : "");
+		append_packed(&query, table, columns, i, 2);
+	}
+	appendStringInfo(&query, " FROM %s AS t WHERE t.%s IN (%s)", table_name(table),
+					 quote_identifier(linitial(columns)), ids);
+	for (int i = 1; i <= place_columns(table, columns, 2); i++)
+		appendStringInfo(&query, " AND t.%s IS NOT NULL", quote_identifier(list_nth(columns, i)));
+	return query.data;
+}
+
+/* SELECT of the least id. */
+char *
+tracked_least_id(Relation table, List *columns)
+{
+	return psprintf("SELECT min(t.%s)::pg_catalog.int8 FROM %s AS t", quote_identifier(linitial(columns)),
+					table_name(table));
+}
+
+/*
+ * SELECT of the points of the mesh; `lines` is its table of lines in SQL, or NULL: vertices that
+ * lines have made are left out.
+ */
+char *
+tracked_points_of_mesh(Oid mesh, const abacus_facts *facts, Oid extension_namespace, const char *lines)
 {
 	StringInfoData query;
 
@@ -288,5 +325,8 @@ tracked_points_of_mesh(Oid mesh, const abacus_facts *facts, Oid extension_namesp
 		appendStringInfo(&query, ", v.attributes[%u]", i);
 	appendStringInfo(&query, " FROM %s.abacus_vertices(%u::pg_catalog.regclass) AS v",
 					 quote_identifier(get_namespace_name(extension_namespace)), mesh);
+	if (lines != NULL)
+		appendStringInfo(&query, " WHERE NOT EXISTS (SELECT FROM %s AS l WHERE l.made AND l.point OPERATOR(pg_catalog.=) "
+						 "v.id AND l.x OPERATOR(pg_catalog.=) v.x AND l.y OPERATOR(pg_catalog.=) v.y)", lines);
 	return query.data;
 }

@@ -16,7 +16,10 @@ extern char *tracked_points_of_table(Relation table, List *columns, int dimensio
 extern char *tracked_points_of_other_srid(Relation table, List *columns,
 										  const abacus_form *form);
 extern char *tracked_points_of_one_table(Relation table, List *columns, int dimension);
+extern char *tracked_places(Relation table, List *columns, const char *ids);
+extern char *tracked_least_id(Relation table, List *columns);
+extern char *tracked_only_geometry(Relation table);
 extern char *tracked_points_of_mesh(Oid mesh, const abacus_facts *facts,
-									Oid extension_namespace);
+									Oid extension_namespace, const char *lines);
 
 #endif

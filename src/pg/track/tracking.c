@@ -46,12 +46,15 @@
 #include "pg/port/port.h"
 #include "pg/track/tracking.h"
 
-/* The function TRACKING_FUNCTION of the extension; InvalidOid if it is missing. */
+/* In the order of TrackedKind. */
+static const char *const function_names[TRACKED_KINDS] = {"abacus_tracked", "abacus_tracked_lines"};
+
+/* The function of triggers for a kind of tables; InvalidOid if it is missing. */
 Oid
-tracking_function(Oid extension_namespace)
+tracking_function(TrackedKind kind, Oid extension_namespace)
 {
 	return GetSysCacheOid3(PROCNAMEARGSNSP, Anum_pg_proc_oid,
-						   CStringGetDatum(TRACKING_FUNCTION),
+						   CStringGetDatum(function_names[kind]),
 						   PointerGetDatum(buildoidvector(NULL, 0)),
 						   ObjectIdGetDatum(extension_namespace));
 }
@@ -120,15 +123,22 @@ tracking_root(Oid table)
 	return OidIsValid(parent) ? tracking_root(parent) : table;
 }
 
-/* The first argument of a trigger, from the catalogue. */
-static const char *
-first_argument(HeapTuple tuple, Relation triggers)
+/* The arguments of a trigger, from the catalogue: each ends with a zero byte. */
+static void
+read_arguments(HeapTuple tuple, Relation triggers, TrackingTrigger *trigger)
 {
 	bool		isnull;
 	Datum		arguments = heap_getattr(tuple, Anum_pg_trigger_tgargs,
 										 RelationGetDescr(triggers), &isnull);
+	char	   *next = VARDATA_ANY(DatumGetByteaPP(arguments));
 
-	return VARDATA_ANY(DatumGetByteaPP(arguments));
+	trigger->count = ((Form_pg_trigger) GETSTRUCT(tuple))->tgnargs;
+	trigger->arguments = palloc(trigger->count * sizeof(char *));
+	for (int i = 0; i < trigger->count; i++)
+	{
+		trigger->arguments[i] = pstrdup(next);
+		next += strlen(next) + 1;
+	}
 }
 
 /* A trigger from the catalogue; NULL if it no longer exists, or is a clone. */
@@ -158,9 +168,9 @@ read_trigger(Oid oid)
 		trigger->event = form->tgtype & TRIGGER_TYPE_EVENT_MASK;
 		trigger->auxiliary = TRIGGER_FOR_BEFORE(form->tgtype);
 		trigger->fires = form->tgenabled;
-		if (!trigger->bound && form->tgnargs > 0)
-			trigger->mesh = mesh_by_name(first_argument(tuple, triggers),
-										 get_rel_namespace(form->tgrelid));
+		read_arguments(tuple, triggers, trigger);
+		if (!trigger->bound && trigger->count > 0)
+			trigger->mesh = mesh_by_name(trigger->arguments[0], get_rel_namespace(form->tgrelid));
 	}
 	systable_endscan(scan);
 	table_close(triggers, AccessShareLock);
@@ -180,7 +190,7 @@ belongs(const TrackingTrigger *trigger, Oid mesh, Oid table)
 }
 
 /*
- * The triggers that call the function, TRACKING_FUNCTION, for this mesh: those bound to it, and
+ * The triggers that call the function, one of abacus_track(), for this mesh: those bound to it, and
  * some that only name it. Of the latter only these count: the triggers of `table` (which may be
  * InvalidOid), of its partitions and children, and of tables that the mesh's owner owns.
  */
@@ -209,6 +219,33 @@ tracking_triggers(Oid function, Oid mesh, Oid table)
 	}
 	systable_endscan(scan);
 	table_close(depend, AccessShareLock);
+	return found;
+}
+
+/* The schema of the extension, from a mesh. */
+Oid
+tracking_extension(Relation mesh)
+{
+	return get_rel_namespace(get_typ_typrelid(mesh->rd_rel->reloftype));
+}
+
+/* A trigger of the table of this kind that the mesh follows; NULL if there is none. */
+TrackingTrigger *
+tracking_followed(Relation mesh, TrackedKind kind)
+{
+	List	   *triggers = tracking_triggers(tracking_function(kind, tracking_extension(mesh)),
+											 RelationGetRelid(mesh), InvalidOid);
+	TrackingTrigger *found = NULL;
+	ListCell   *cell;
+
+	foreach(cell, triggers)
+	{
+		TrackingTrigger *trigger = lfirst(cell);
+
+		/* a detached partition keeps its auxiliary trigger */
+		if (!trigger->auxiliary && (found == NULL || !found->bound))
+			found = trigger;
+	}
 	return found;
 }
 
@@ -250,7 +287,7 @@ bind_triggers(Oid function, Oid mesh, Oid table)
 		TrackingTrigger *trigger = lfirst(cell);
 
 		if (trigger->bound && !trigger->auxiliary && tracking_root(trigger->table) != table)
-			return false;		/* a mesh follows one table */
+			return false;		/* a mesh follows one table of each kind */
 	}
 	foreach(cell, triggers)
 	{
@@ -264,21 +301,24 @@ bind_triggers(Oid function, Oid mesh, Oid table)
 }
 
 /*
- * After a restore: binds the triggers of the mesh, if there is no doubt which table it follows. It
+ * After a restore: binds the triggers of the mesh, if there is no doubt which tables it follows. It
  * never waits. Triggers that are not bound here are bound by the first write of the table.
  */
 void
 tracking_bind_restored(Relation mesh)
 {
 	Oid			relid = RelationGetRelid(mesh);
-	Oid			pages = get_typ_typrelid(mesh->rd_rel->reloftype);
-	Oid			function = tracking_function(get_rel_namespace(pages));
-	Oid			table = only_table(tracking_triggers(function, relid, InvalidOid));
 
-	/* the lock keeps the triggers from being dropped meanwhile */
-	if (OidIsValid(table) && ConditionalLockRelationOid(table, AccessShareLock) &&
-		OidIsValid(mesh_table_owner(table)))
-		bind_triggers(function, relid, table);
+	for (int kind = 0; kind < TRACKED_KINDS; kind++)
+	{
+		Oid			function = tracking_function(kind, tracking_extension(mesh));
+		Oid			table = only_table(tracking_triggers(function, relid, InvalidOid));
+
+		/* the lock keeps the triggers from being dropped meanwhile */
+		if (OidIsValid(table) && ConditionalLockRelationOid(table, AccessShareLock) &&
+			OidIsValid(mesh_table_owner(table)))
+			bind_triggers(function, relid, table);
+	}
 }
 
 /*

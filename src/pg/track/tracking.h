@@ -8,7 +8,14 @@
 #include "nodes/pg_list.h"
 #include "utils/rel.h"
 
-#define TRACKING_FUNCTION "abacus_tracked"
+/* What the rows of a table are. A mesh follows at most one table of each kind. */
+typedef enum TrackedKind
+{
+	TRACKED_POINTS,
+	TRACKED_LINES
+} TrackedKind;
+
+#define TRACKED_KINDS 2
 
 /* One of the triggers in the catalogue. */
 typedef struct TrackingTrigger
@@ -21,6 +28,8 @@ typedef struct TrackingTrigger
 	int16		event;			/* TRIGGER_TYPE_..., one or several */
 	bool		auxiliary;		/* on a partition or child: reports its truncation */
 	char		fires;			/* as pg_trigger.tgenabled says */
+	int			count;			/* of arguments */
+	char	  **arguments;		/* the first one is the name of the mesh */
 } TrackingTrigger;
 
 /* The function and arguments that all triggers of a mesh share. */
@@ -28,14 +37,13 @@ typedef struct TriggerCall
 {
 	Oid			function;
 	Oid			mesh;
-	int			dimension;
-	uint32		dropped;		/* attributes of the mesh that were dropped */
-	bool		deferred;
-	List	   *columns;
+	List	   *arguments;		/* of the trigger, behind the name of the mesh */
 	List	   *former;			/* TrackingTriggers that these replace */
 } TriggerCall;
 
-extern Oid	tracking_function(Oid extension_namespace);
+extern Oid	tracking_function(TrackedKind kind, Oid extension_namespace);
+extern Oid	tracking_extension(Relation mesh);
+extern TrackingTrigger *tracking_followed(Relation mesh, TrackedKind kind);
 extern Oid	tracking_mesh(const TriggerData *data, Oid *user);
 extern bool tracking_is_followed(const TriggerData *data);
 extern Oid	tracking_root(Oid table);

@@ -21,7 +21,6 @@
 #include "pg/mesh/mesh.h"
 #include "pg/port/port.h"
 #include "pg/track/tracking.h"
-#include "pg/track/transition.h"
 
 /*
  * A name for a trigger that no other trigger of the table has. Triggers fire in the order of their
@@ -39,7 +38,7 @@ choose_name(Oid mesh, Oid table, const char *event)
 	return name;
 }
 
-/* The arguments: 'mesh', '2', 'id', 'x', 'y', ... */
+/* The arguments: 'mesh' and those of the call. */
 static char *
 arguments(const TriggerCall *call, Relation table)
 {
@@ -52,9 +51,7 @@ arguments(const TriggerCall *call, Relation table)
 	initStringInfo(&list);
 	appendStringInfoString(&list, quote_literal_cstr(
 							   quote_qualified_identifier(schema, get_rel_name(call->mesh))));
-	appendStringInfo(&list, ", '%d%s%s'", call->dimension, call->deferred ? TRACKING_DEFERRED : "",
-					 call->dropped > 0 ? psprintf(TRACKING_DROPPED "%u", call->dropped) : "");
-	foreach(cell, call->columns)
+	foreach(cell, call->arguments)
 		appendStringInfo(&list, ", %s", quote_literal_cstr(lfirst(cell)));
 	return list.data;
 }

@@ -18,7 +18,6 @@
 #include "executor/executor.h"
 #include "executor/tuptable.h"
 #include "miscadmin.h"
-#include "utils/datum.h"
 #include "utils/lsyscache.h"
 #include "utils/rel.h"
 #include "utils/tuplestore.h"
@@ -83,37 +82,6 @@ transition_shape(const Transition *transition)
 }
 
 static void
-open_rows(TransitionRows *rows, Tuplestorestate *store, TupleDesc desc)
-{
-	rows->rows = store;
-	rows->counts = false;
-	if (store == NULL)
-		return;
-	/* a read pointer of our own: other triggers read the same rows */
-	rows->pointer = tuplestore_alloc_read_pointer(store, EXEC_FLAG_REWIND);
-	rows->slot = MakeSingleTupleTableSlot(desc, &TTSOpsMinimalTuple);
-}
-
-static void
-rewind_rows(TransitionRows *rows)
-{
-	if (rows->rows == NULL)
-		return;
-	tuplestore_select_read_pointer(rows->rows, rows->pointer);
-	tuplestore_rescan(rows->rows);
-}
-
-/* Puts the next row into the slot; false at the end. */
-static bool
-fetch_row(TransitionRows *rows)
-{
-	if (rows->rows == NULL)
-		return false;
-	tuplestore_select_read_pointer(rows->rows, rows->pointer);
-	return tuplestore_gettupleslot(rows->rows, true, false, rows->slot);
-}
-
-static void
 refuse_arguments(const TriggerData *trigger)
 {
 	ereport(ERROR,
@@ -161,16 +129,16 @@ transition_open(const TriggerData *trigger)
 		refuse_arguments(trigger);
 	transition->point = MakeSingleTupleTableSlot(transition->points, &TTSOpsVirtual);
 	transition->names = names;
-	open_rows(&transition->old, trigger->tg_oldtable, desc);
-	open_rows(&transition->new, trigger->tg_newtable, desc);
+	transition_rows_open(&transition->old, trigger->tg_oldtable, desc);
+	transition_rows_open(&transition->new, trigger->tg_newtable, desc);
 	return transition;
 }
 
 static void
 rewind_all(Transition *transition)
 {
-	rewind_rows(&transition->old);
-	rewind_rows(&transition->new);
+	transition_rows_rewind(&transition->old);
+	transition_rows_rewind(&transition->new);
 }
 
 /* Whether the row in the slot is a point. */
@@ -189,19 +157,7 @@ is_point(const Transition *transition, TupleTableSlot *slot)
 static bool
 agree(const Transition *transition, int columns)
 {
-	for (int i = 0; i < columns; i++)
-	{
-		Form_pg_attribute attribute = TupleDescAttr(transition->points, i);
-		bool		old_null;
-		bool		new_null;
-		Datum		old = slot_getattr(transition->old.slot, transition->numbers[i], &old_null);
-		Datum		new = slot_getattr(transition->new.slot, transition->numbers[i], &new_null);
-
-		if (old_null != new_null ||
-			(!old_null && !datum_image_eq(old, new, attribute->attbyval, attribute->attlen)))
-			return false;
-	}
-	return true;
+	return transition_rows_agree(transition->old.slot, transition->new.slot, transition->numbers, columns);
 }
 
 static bool
@@ -216,8 +172,8 @@ advance(Transition *transition)
 {
 	TransitionRows *old = &transition->old;
 	TransitionRows *new = &transition->new;
-	bool		was = fetch_row(old);
-	bool		is = fetch_row(new);
+	bool		was = transition_rows_fetch(old);
+	bool		is = transition_rows_fetch(new);
 
 	CHECK_FOR_INTERRUPTS();
 	old->counts = was && is_point(transition, old->slot);
@@ -408,17 +364,10 @@ transition_send_row(Transition *transition, const TriggerData *trigger, bool new
 	row_packer_reset(transition->packer);
 }
 
-static void
-close_rows(TransitionRows *rows)
-{
-	if (rows->rows != NULL)
-		ExecDropSingleTupleTableSlot(rows->slot);
-}
-
 void
 transition_close(Transition *transition)
 {
-	close_rows(&transition->old);
-	close_rows(&transition->new);
+	transition_rows_close(&transition->old);
+	transition_rows_close(&transition->new);
 	ExecDropSingleTupleTableSlot(transition->point);
 }

@@ -9,15 +9,7 @@
 
 #include "pg/mesh/change.h"
 #include "pg/track/in_step.h"
-
-/* A transition table while it is read, or a row. */
-typedef struct TransitionRows
-{
-	Tuplestorestate *rows;		/* NULL: the event has none, or the slot is set */
-	int			pointer;
-	TupleTableSlot *slot;
-	bool		counts;			/* the row in the slot is a point to add or remove */
-} TransitionRows;
+#include "pg/track/transition_rows.h"
 
 typedef struct Transition
 {

@@ -9,11 +9,11 @@
 
 #include "pg/base/settings.h"
 #include "pg/base/sql_function.h"
+#include "pg/lines/new_lines.h"
 #include "pg/mesh/change.h"
 #include "pg/mesh/mesh_lines.h"
 #include "pg/mesh/new_mesh.h"
 #include "pg/mesh/shape.h"
-#include "pg/sql/constrain/new_lines.h"
 
 SQL_FUNCTION(abacus_sql_triangulate);
 SQL_FUNCTION(abacus_sql_triangulate_query);
@@ -65,13 +65,14 @@ static void
 insert_with_lines(Oid mesh, Source *points, Source *lines, const char *vertices,
 				  abacus_header *header)
 {
+	static const NewPoints new_points = {0};
 	Change	   *change = change_begin(mesh, "abacus_triangulate()");
 
 	new_lines_check_mesh(change);
 	change_read(change, points);
 	change_insert(change);
 	change_show(change);		/* the points of lines are found by a query */
-	new_lines_add(change, lines, vertices, "hard", EXISTING_ERROR, NULL);
+	new_lines_add(change, lines, vertices, "hard", EXISTING_ERROR, NULL, &new_points);
 	abacus_header_copy(header, change->writer.header);
 	change_end(change);
 }

@@ -18,12 +18,12 @@
 #include "abacus/constrain.h"
 #include "pg/base/settings.h"
 #include "pg/host/guard.h"
+#include "pg/lines/named_rows.h"
 #include "pg/mesh/lines_table.h"
 #include "pg/mesh/mesh_cache.h"
 #include "pg/port/port.h"
 #include "pg/sql/constrain/fixed_edges.h"
 #include "pg/sql/constrain/fixed_window.h"
-#include "pg/sql/constrain/named_rows.h"
 
 /* Rows with names. */
 #define EDGES_ON_LINES "abacus_edges_on_lines"

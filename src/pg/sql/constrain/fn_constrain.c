@@ -7,11 +7,12 @@
 #include "utils/builtins.h"
 
 #include "pg/base/sql_function.h"
+#include "pg/lines/line_rows.h"
+#include "pg/lines/new_lines.h"
 #include "pg/mesh/lines_table.h"
 #include "pg/mesh/mesh_lines.h"
 #include "pg/sql/arguments/word.h"
-#include "pg/sql/constrain/line_rows.h"
-#include "pg/sql/constrain/new_lines.h"
+#include "pg/track/by_hand.h"
 
 SQL_FUNCTION(abacus_sql_constrain);
 SQL_FUNCTION(abacus_sql_unconstrain);
@@ -31,6 +32,7 @@ mesh_of(const Change *change)
 Datum
 abacus_sql_constrain(PG_FUNCTION_ARGS)
 {
+	static const NewPoints points = {.allow = by_hand_refuse_points};
 	const char *kind;
 	const char *z = NULL;
 	int			existing;
@@ -49,8 +51,9 @@ abacus_sql_constrain(PG_FUNCTION_ARGS)
 	source_prepare(&source, text_to_cstring(PG_GETARG_TEXT_PP(1)));
 	change = change_begin(PG_GETARG_OID(0), "abacus_constrain()");
 	new_lines_check_mesh(change);
+	by_hand_refuse_lines(change);
 	lines = new_lines_add(change, &source, new_lines_vertices(fcinfo->flinfo->fn_oid, PG_GETARG_OID(0)),
-						  kind, existing, z);
+						  kind, existing, z, &points);
 	if (lines > 0)
 		change_end(change);
 	else
@@ -109,6 +112,7 @@ abacus_sql_unconstrain(PG_FUNCTION_ARGS)
 	source_prepare(&source, text_to_cstring(PG_GETARG_TEXT_PP(1)));
 	change = change_begin(PG_GETARG_OID(0), "abacus_unconstrain()");
 	new_lines_check_mesh(change);
+	by_hand_refuse_lines(change);
 	ids = line_ids_read(&source);
 	named_rows_register(ids);
 	if (ids->count > 0)

@@ -15,11 +15,12 @@
 #include "pg/base/settings.h"
 #include "pg/base/sql_function.h"
 #include "pg/input/source.h"
+#include "pg/lines/line_points.h"
+#include "pg/lines/line_values.h"
+#include "pg/lines/new_lines.h"
 #include "pg/mesh/line_crossings.h"
 #include "pg/mesh/lines_table.h"
 #include "pg/mesh/mesh_cache.h"
-#include "pg/sql/constrain/line_points.h"
-#include "pg/sql/constrain/new_lines.h"
 
 SQL_FUNCTION(abacus_sql_crossings);
 
@@ -75,7 +76,7 @@ corners_begin(Corners *corners, TupleDesc desc)
 
 		corners->at[i] = column;
 		corners->type[i] = getBaseType(type);
-		if (is_id ? line_rows_is_integer(corners->type[i]) : line_rows_is_number(corners->type[i]))
+		if (is_id ? line_value_is_integer(corners->type[i]) : line_value_is_number(corners->type[i]))
 			continue;
 		ereport(ERROR,
 				(errcode(ERRCODE_DATATYPE_MISMATCH),
@@ -106,10 +107,10 @@ pack_corner(Corners *corners, HeapTuple row, uint64 *record)
 					 errhint("Leave such rows out with a WHERE clause.")));
 		if (i < CORNER_X)
 		{
-			record[i] = (uint64) line_rows_integer(corners->type[i], value);
+			record[i] = (uint64) line_value_integer(corners->type[i], value);
 			continue;
 		}
-		number = line_rows_number(corners->type[i], value);
+		number = line_value_number(corners->type[i], value);
 		if (!isfinite(number))
 			ereport(ERROR,
 					(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
@@ -173,14 +174,14 @@ static NamedRows *
 read_points(Source *source, LineCrossings *crossings, const char *vertices)
 {
 	abacus_header *header = palloc0(sizeof(abacus_header));
-	NewLines	lines = {.vertices = vertices, .names = abacus_names_of(header)};
-	NamedRows  *rows = line_rows_read(source, lines.names, NULL, &lines.shape);
+	NewLines	lines = {.vertices = vertices, .reading = {abacus_names_of(header), NULL, NULL}};
+	NamedRows  *rows = line_rows_read(source, &lines.reading, &lines.shape);
 	NamedRows  *points;
 	int			level = plain_names_begin(false);
 
 	named_rows_register(rows);
 	line_points_check(&lines);
-	points = line_points_find(&lines);
+	points = line_points_resolve(&lines, line_points_scan(&lines));
 	line_crossings_add_query(crossings, "SELECT line, position, x, y, coalesce(part, 0) FROM " LINE_POINTS, false);
 	named_rows_free(points);
 	plain_names_end(level);

@@ -8,12 +8,12 @@
 #include "funcapi.h"
 
 #include "pg/base/sql_function.h"
+#include "pg/lines/named_rows.h"
 #include "pg/mesh/lines_table.h"
 #include "pg/mesh/mesh_pages.h"
 #include "pg/mesh/reader.h"
 #include "pg/port/port.h"
 #include "pg/sql/constrain/fixed_edges.h"
-#include "pg/sql/constrain/named_rows.h"
 
 SQL_FUNCTION(abacus_sql_lines);
 SQL_FUNCTION(abacus_sql_fixed_edges);

@@ -1,219 +1,27 @@
 /*
- * fn_track.c: abacus_track and abacus_untrack, which make a mesh follow a table, and end that.
+ * fn_track.c: abacus_track and abacus_untrack, which make a mesh follow a table of points, and end
+ * that for any table.
  *
- * The table is locked against writers first, so no row is missed: rows committed by then are read
- * here, and later ones meet the triggers. Then an empty mesh gets the points of all rows. A mesh
- * with points must have exactly those. The difference of the two multisets is computed, and
- * corrected if the caller wishes.
+ * An empty mesh gets the points of all rows. A mesh with points must have exactly those. The
+ * difference of the two multisets is computed, and corrected if the caller wishes.
  */
 #include "postgres.h"
 
-#include "access/relation.h"
-#include "access/table.h"
-#include "access/xact.h"
-#include "catalog/pg_class.h"
-#include "catalog/pg_inherits.h"
 #include "miscadmin.h"
-#include "utils/acl.h"
 #include "utils/builtins.h"
 #include "utils/lsyscache.h"
-#include "utils/rls.h"
-#include "utils/syscache.h"
 
 #include "pg/base/sql_function.h"
 #include "pg/mesh/change.h"
+#include "pg/mesh/lines_table.h"
 #include "pg/mesh/numbering.h"
-#include "pg/port/port.h"
 #include "pg/track/pending.h"
 #include "pg/track/tracked_points.h"
-#include "pg/track/tracking.h"
+#include "pg/track/tracked_table.h"
+#include "pg/track/transition.h"
 
 SQL_FUNCTION(abacus_sql_track);
 SQL_FUNCTION(abacus_sql_untrack);
-
-/*
- * Users who may not track the table must not block its writers, so this comes before the lock.
- */
-static void
-check_owner(Oid relid)
-{
-	if (SearchSysCacheExists1(RELOID, ObjectIdGetDatum(relid)) &&
-		!object_ownercheck(RelationRelationId, relid, GetUserId()))
-		aclcheck_error(ACLCHECK_NOT_OWNER, OBJECT_TABLE, get_rel_name(relid));
-}
-
-/* The table to track, locked. While it is open no one drops it, not even an event trigger. */
-static Relation
-open_table(Oid relid, LOCKMODE mode)
-{
-	Relation	table = try_relation_open(relid, mode);
-
-	if (table == NULL)
-		ereport(ERROR,
-				(errcode(ERRCODE_UNDEFINED_TABLE),
-				 errmsg("table with OID %u does not exist", relid)));
-	return table;
-}
-
-/* A partition or child is followed through its topmost parent; only tables can be followed. */
-static void
-check_kind(Relation table)
-{
-	char		kind = table->rd_rel->relkind;
-	Oid			root = tracking_root(RelationGetRelid(table));
-
-	if (kind != RELKIND_RELATION && kind != RELKIND_PARTITIONED_TABLE)
-		ereport(ERROR,
-				(errcode(ERRCODE_WRONG_OBJECT_TYPE),
-				 errmsg("cannot track \"%s\"", RelationGetRelationName(table)),
-				 errdetail("Only tables have triggers that see all changes.")));
-	if (root != RelationGetRelid(table))
-		ereport(ERROR,
-				(errcode(ERRCODE_WRONG_OBJECT_TYPE),
-				 errmsg("cannot track \"%s\"", RelationGetRelationName(table)),
-				 errdetail("It is a partition or child of table \"%s\".", get_rel_name(root)),
-				 errhint("Track that table: the mesh follows all of its partitions and children.")));
-}
-
-/* Partitions and children must be tables of the same owner. */
-static void
-check_family(Relation table, List *family)
-{
-	ListCell   *cell;
-
-	foreach(cell, family)
-	{
-		Relation	member = table_open(lfirst_oid(cell), NoLock);
-		char		kind = member->rd_rel->relkind;
-
-		if (kind != RELKIND_RELATION && kind != RELKIND_PARTITIONED_TABLE)
-			ereport(ERROR,
-					(errcode(ERRCODE_WRONG_OBJECT_TYPE),
-					 errmsg("cannot track \"%s\"", RelationGetRelationName(table)),
-					 errdetail("Its partition or child \"%s\" is not a table of this database.",
-							   RelationGetRelationName(member))));
-		if (member->rd_rel->relowner != table->rd_rel->relowner)
-			ereport(ERROR,
-					(errcode(ERRCODE_WRONG_OBJECT_TYPE),
-					 errmsg("cannot track \"%s\"", RelationGetRelationName(table)),
-					 errdetail("Its partition or child \"%s\" has another owner.",
-							   RelationGetRelationName(member))));
-		table_close(member, NoLock);
-	}
-}
-
-/* Rejects a table that cannot be tracked. */
-static void
-check_table(Relation table)
-{
-	Oid			relid = RelationGetRelid(table);
-	const char *name = RelationGetRelationName(table);
-
-	check_kind(table);
-	if (!object_ownercheck(RelationRelationId, relid, GetUserId()))	/* it may have changed since */
-		aclcheck_error(ACLCHECK_NOT_OWNER, OBJECT_TABLE, name);
-	if (check_enable_rls(relid, InvalidOid, true) == RLS_ENABLED)
-		ereport(ERROR,
-				(errcode(ERRCODE_FEATURE_NOT_SUPPORTED),
-				 errmsg("row-level security on table \"%s\" applies to user \"%s\"", name,
-						GetUserNameFromId(GetUserId(), false)),
-				 errdetail("It may hide rows that belong in the mesh."),
-				 errhint("Use ALTER TABLE ... NO FORCE ROW LEVEL SECURITY.")));
-}
-
-/* Rejects a pair if one can be emptied or vanish without a trigger that informs the other. */
-static void
-check_persistence(Relation table, char of_mesh)
-{
-	char		of_table = table->rd_rel->relpersistence;
-
-	/* a temporary table is gone after a crash, and so are its triggers */
-	if (of_table == RELPERSISTENCE_TEMP)
-		return;
-	if (of_mesh == RELPERSISTENCE_TEMP)
-		ereport(ERROR,
-				(errcode(ERRCODE_WRONG_OBJECT_TYPE),
-				 errmsg("a temporary mesh cannot follow a permanent table"),
-				 errdetail("Other sessions could no longer write to the table.")));
-	if (of_mesh != of_table)
-		ereport(ERROR,
-				(errcode(ERRCODE_WRONG_OBJECT_TYPE),
-				 of_table == RELPERSISTENCE_UNLOGGED
-				 ? errmsg("a logged mesh cannot follow an unlogged table")
-				 : errmsg("an unlogged mesh cannot follow a logged table"),
-				 errdetail("A crash would empty one of them."),
-				 errhint("Use ALTER TABLE ... SET LOGGED or SET UNLOGGED; a mesh has two tables.")));
-}
-
-/* Checks the rights of the table's owner, which every session will use to write the mesh. */
-static void
-check_mesh(Relation table, List *family, Oid mesh)
-{
-	ListCell   *cell;
-	Oid			user;
-	int			security;
-	Relation	simplices;
-	Oid			vertices;
-
-	GetUserIdAndSecContext(&user, &security);
-	SetUserIdAndSecContext(table->rd_rel->relowner, security | SECURITY_LOCAL_USERID_CHANGE);
-	simplices = mesh_table_open(mesh, MESH_WRITE);
-	vertices = mesh_vertex_table(simplices, MESH_WRITE);
-	SetUserIdAndSecContext(user, security);
-	foreach(cell, family)
-	{
-		Relation	member = table_open(lfirst_oid(cell), NoLock);
-
-		check_persistence(member, simplices->rd_rel->relpersistence);
-		check_persistence(member, get_rel_persistence(vertices));
-		table_close(member, NoLock);
-	}
-	table_close(simplices, NoLock);
-}
-
-/* Whether the mesh is bound to the table, so that triggers that only name it do not count. */
-static bool
-is_bound_to(List *triggers, Oid table)
-{
-	ListCell   *cell;
-
-	foreach(cell, triggers)
-	{
-		TrackingTrigger *trigger = lfirst(cell);
-
-		if (trigger->bound && tracking_root(trigger->table) == table)
-			return true;
-	}
-	return false;
-}
-
-/* A mesh follows one table; returns its triggers on this table, its partitions and children. */
-static List *
-present_triggers(Oid function, Oid mesh, Relation table)
-{
-	List	   *triggers = tracking_triggers(function, mesh, RelationGetRelid(table));
-	bool		is_bound = is_bound_to(triggers, RelationGetRelid(table));
-	List	   *present = NIL;
-	ListCell   *cell;
-
-	foreach(cell, triggers)
-	{
-		TrackingTrigger *trigger = lfirst(cell);
-
-		/* a detached partition still has its auxiliary trigger */
-		if (tracking_root(trigger->table) == RelationGetRelid(table) ||
-			(trigger->auxiliary && object_ownercheck(RelationRelationId, trigger->table, GetUserId())))
-			present = lappend(present, trigger);
-		else if (!trigger->auxiliary && (trigger->bound || !is_bound))
-			ereport(ERROR,
-					(errcode(ERRCODE_OBJECT_IN_USE),
-					 errmsg("mesh \"%s\" already follows table \"%s\"", get_rel_name(mesh),
-							get_rel_name(trigger->table)),
-					 errdetail("A mesh follows one table; a table may be followed by many meshes."),
-					 errhint("Call abacus_untrack() first, or make another mesh.")));
-	}
-	return present;
-}
 
 /* Reads the points of a query into the stage; returns how many. */
 static uint64
@@ -227,34 +35,67 @@ read_points(Change *change, const char *query)
 	return change->points;
 }
 
-/* Brings the mesh in step, or reports that it is not; false if it already was. */
-static bool
-make_equal(Change *change, Oid mesh, Relation table, List *columns, bool synchronize,
-		   Oid extension_namespace)
+/* A table that a mesh will follow. */
+typedef struct Tracked
+{
+	Oid			mesh;
+	Relation	table;
+	Oid			extension_namespace;
+	List	   *columns;
+	uint32		dropped;		/* attributes of the mesh that were dropped */
+} Tracked;
+
+/* The points of the table and of the mesh, as queries. */
+typedef struct BothPoints
+{
+	char	   *here;
+	char	   *there;
+} BothPoints;
+
+static BothPoints
+both_points(Change *change, const Tracked *tracked, const char *lines)
 {
 	const abacus_facts *facts = &change->writer.header->facts;
-	char	   *here = tracked_points_of_table(table, columns, facts->form.dimension, true);
-	char	   *there = tracked_points_of_mesh(mesh, facts, extension_namespace);
-	char	   *elsewhere = tracked_points_of_other_srid(table, columns, &facts->form);
-	uint32		srid = facts->form.srid;
-	uint64		missing;
-	uint64		surplus;
+	char	   *elsewhere = tracked_points_of_other_srid(tracked->table, tracked->columns, &facts->form);
 
 	/* a geometry of another system is an error, unless the mesh has no SRID and takes it */
 	if (elsewhere != NULL)
 		read_points(change, elsewhere);
-	/* both are read before the mesh changes, since a query would see it half changed */
-	missing = read_points(change, psprintf("%s EXCEPT ALL %s", here, there));
-	change_swap_stages(change);
-	surplus = read_points(change, psprintf("%s EXCEPT ALL %s", there, here));
-	if (!synchronize && missing + surplus > 0)
+	return (BothPoints) {
+		tracked_points_of_table(tracked->table, tracked->columns, facts->form.dimension, true),
+		tracked_points_of_mesh(tracked->mesh, facts, tracked->extension_namespace, lines)
+	};
+}
+
+static void
+refuse_difference(const Tracked *tracked, uint64 missing, uint64 surplus)
+{
+	if (missing + surplus > 0)
 		ereport(ERROR,
 				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
-				 errmsg("mesh \"%s\" does not hold the points of table \"%s\"", get_rel_name(mesh),
-						RelationGetRelationName(table)),
+				 errmsg("mesh \"%s\" does not hold the points of table \"%s\"", get_rel_name(tracked->mesh),
+						RelationGetRelationName(tracked->table)),
 				 errdetail("Points missing from the mesh: " UINT64_FORMAT "; surplus points in the mesh: "
 						   UINT64_FORMAT ".", missing, surplus),
 				 errhint("Use synchronize => true to insert and delete them.")));
+}
+
+/* Brings the mesh in step, or reports that it is not; false if it already was. */
+static bool
+make_equal(Change *change, const Tracked *tracked, bool synchronize)
+{
+	const abacus_facts *facts = &change->writer.header->facts;
+	BothPoints	both = both_points(change, tracked, NULL);
+	uint32		srid = facts->form.srid;
+	uint64		missing;
+	uint64		surplus;
+
+	/* both are read before the mesh changes, since a query would see it half changed */
+	missing = read_points(change, psprintf("%s EXCEPT ALL %s", both.here, both.there));
+	change_swap_stages(change);
+	surplus = read_points(change, psprintf("%s EXCEPT ALL %s", both.there, both.here));
+	if (!synchronize)
+		refuse_difference(tracked, missing, surplus);
 	/* since it is inserted first, a point that differs only in its attributes replaces the other */
 	change_hold(change);
 	change_swap_stages(change);
@@ -265,6 +106,48 @@ make_equal(Change *change, Oid mesh, Relation table, List *columns, bool synchro
 		change_delete(change, true);
 	change_settle(change);
 	return missing + surplus > 0 || srid != facts->form.srid;
+}
+
+/* Notes the points of a query; returns how many. */
+static uint64
+note_points(Change *change, const char *query, bool gone, Pending *pending)
+{
+	uint64		noted = 0;
+	Source		source;
+	const uint64 *points;
+	size_t		count;
+
+	source_prepare(&source, query);
+	source_open(&source, abacus_names_of(change->writer.header), true);
+	for (; (count = source_fetch(&source, &points)) > 0; noted += count)
+		pending_add(pending, gone, points, count);
+	pending_take_srid(pending, source.packer->srid);
+	source_close(&source);
+	source_finish(&source);
+	return noted;
+}
+
+/*
+ * The same for a mesh that follows lines: notes what must change, so that the lines follow, too. It
+ * may have vertices that lines have made.
+ */
+static void
+note_difference(Change *change, const Tracked *tracked, bool synchronize)
+{
+	Relation	simplices = mesh_pages(change->writer.host)->simplices.heap;
+	const abacus_facts *facts = &change->writer.header->facts;
+	BothPoints	both = both_points(change, tracked, lines_table_name(lines_table_require(simplices, MESH_WRITE)));
+	PendingTable table = {tracked->mesh, tracked->table->rd_rel->relowner, TRACKED_POINTS,
+		RelationGetRelationName(tracked->table), "abacus_track",
+		{facts->form.dimension, 1 + facts->form.dimension + facts->columns.attributes, tracked->dropped},
+		false};
+	Pending    *pending = pending_open(&table);
+	bool		is_empty = read_points(change, psprintf("%s LIMIT 1", both.there)) == 0;
+	uint64		missing = note_points(change, psprintf("%s EXCEPT ALL %s", both.here, both.there), false, pending);
+	uint64		surplus = note_points(change, psprintf("%s EXCEPT ALL %s", both.there, both.here), true, pending);
+
+	if (!synchronize && !is_empty)
+		refuse_difference(tracked, missing, surplus);
 }
 
 /* How many attributes of the mesh have been dropped. */
@@ -280,6 +163,50 @@ dropped_attributes(const Change *change)
 	return dropped;
 }
 
+/* The arguments of the triggers: the shape of the mesh, in one, and the columns. */
+static List *
+trigger_arguments(const Tracked *tracked, uint32 dimension, bool deferred)
+{
+	return lcons(psprintf("%u%s%s", dimension, deferred ? TRACKING_DEFERRED : "",
+						  tracked->dropped > 0 ? psprintf(TRACKING_DROPPED "%u", tracked->dropped) : ""),
+				 list_copy(tracked->columns));
+}
+
+/* Brings the mesh in step with the table, or, if it follows lines, notes what that takes. */
+static void
+bring_in_step(Change *change, const Tracked *tracked, bool synchronize)
+{
+	const abacus_facts *facts = &change->writer.header->facts;
+	bool		changed = true;
+
+	if (tracking_followed(mesh_pages(change->writer.host)->simplices.heap, TRACKED_LINES) != NULL)
+	{
+		note_difference(change, tracked, synchronize);
+		changed = false;
+	}
+	else if (facts->census.vertices == 0 && facts->census.inserted == facts->census.staged)
+	{
+		read_points(change, tracked_points_of_table(tracked->table, tracked->columns, facts->form.dimension, false));
+		change_insert(change);
+	}
+	else
+		changed = make_equal(change, tracked, synchronize);
+	if (changed)
+		change_end(change);
+	else
+		change_abandon(change);
+}
+
+static uint64
+count_points(Oid mesh)
+{
+	Change	   *change = change_begin(mesh, "abacus_track()");
+	abacus_census census = change->writer.header->facts.census;
+
+	change_abandon(change);
+	return census.vertices + census.duplicates + (census.staged - census.inserted);
+}
+
 /*
  * abacus_track(mesh regclass, table regclass, columns text[], synchronize bool, deferred bool)
  * -> bigint
@@ -287,74 +214,30 @@ dropped_attributes(const Change *change)
 Datum
 abacus_sql_track(PG_FUNCTION_ARGS)
 {
-	Oid			extension_namespace = get_func_namespace(fcinfo->flinfo->fn_oid);
-	Oid			mesh;
-	Relation	simplices;
-	Relation	table;
-	List	   *family;
+	Tracked		tracked = {.extension_namespace = get_func_namespace(fcinfo->flinfo->fn_oid)};
 	TriggerCall call = {0};
-	ListCell   *cell;
 	Change	   *change;
-	abacus_facts facts;
-	uint64		points;
-	bool		changed = true;
 
 	if (PG_ARGISNULL(0) || PG_ARGISNULL(1) || PG_ARGISNULL(3) || PG_ARGISNULL(4))
 		ereport(ERROR,
 				(errcode(ERRCODE_NULL_VALUE_NOT_ALLOWED),
 				 errmsg("mesh, table, synchronize and deferred must not be NULL")));
-	PreventCommandIfReadOnly("abacus_track()");	/* before the lock, which a standby does not have */
-	if (IsolationUsesXactSnapshot())
-		ereport(ERROR,
-				(errcode(ERRCODE_ACTIVE_SQL_TRANSACTION),
-				 errmsg("abacus_track() needs the isolation level READ COMMITTED"),
-				 errdetail("The snapshot of this transaction may be older than rows of the table.")));
-	mesh = PG_GETARG_OID(0);
-	check_owner(PG_GETARG_OID(1));
-	table = open_table(PG_GETARG_OID(1), ShareRowExclusiveLock);
-	check_table(table);
-	family = find_all_inheritors(RelationGetRelid(table), ShareRowExclusiveLock, NULL);
-	check_family(table, family);
-	check_mesh(table, family, mesh);
+	tracked.mesh = call.mesh = PG_GETARG_OID(0);
+	tracked.table = tracked_table_begin(PG_GETARG_OID(1), tracked.mesh, "abacus_track()");
 
-	pending_settle(mesh);
-	change = change_begin(mesh, "abacus_track()");
-	facts = change->writer.header->facts;
-	call.function = tracking_function(extension_namespace);
-	call.mesh = mesh;
-	call.former = present_triggers(call.function, mesh, table);
-	call.dimension = facts.form.dimension;
-	call.dropped = dropped_attributes(change);
-	call.deferred = PG_GETARG_BOOL(4);
-	call.columns = tracked_columns(PG_ARGISNULL(2) ? NULL : PG_GETARG_ARRAYTYPE_P(2),
-								   abacus_names_of(change->writer.header), table);
-	if (facts.census.vertices == 0 && facts.census.inserted == facts.census.staged)
-	{
-		read_points(change, tracked_points_of_table(table, call.columns, facts.form.dimension, false));
-		change_insert(change);
-	}
-	else
-		changed = make_equal(change, mesh, table, call.columns, PG_GETARG_BOOL(3), extension_namespace);
-	facts = change->writer.header->facts;
-	points = facts.census.vertices + facts.census.duplicates + (facts.census.staged - facts.census.inserted);
-	if (changed)
-		change_end(change);
-	else
-		change_abandon(change);
-
-	/* the change has locked it, and it must not be dropped before its triggers are bound */
-	simplices = table_open(mesh, NoLock);
-	if (call.former != NIL)
-	{
-		table_close(table, NoLock); /* DROP TRIGGER refuses a table in use */
-		foreach(cell, call.former)
-			tracking_drop(lfirst(cell));
-		table = open_table(PG_GETARG_OID(1), NoLock);
-	}
-	tracking_create(&call, table);
-	table_close(table, NoLock);
-	table_close(simplices, NoLock);
-	PG_RETURN_INT64((int64) points);
+	pending_settle(tracked.mesh);
+	change = change_begin(tracked.mesh, "abacus_track()");
+	call.function = tracking_function(TRACKED_POINTS, tracked.extension_namespace);
+	call.former = tracked_table_triggers(call.function, tracked.mesh, tracked.table);
+	tracked.dropped = dropped_attributes(change);
+	tracked.columns = tracked_columns(PG_ARGISNULL(2) ? NULL : PG_GETARG_ARRAYTYPE_P(2),
+									  abacus_names_of(change->writer.header), tracked.table);
+	call.arguments = trigger_arguments(&tracked, change->writer.header->facts.form.dimension,
+									   PG_GETARG_BOOL(4));
+	bring_in_step(change, &tracked, PG_GETARG_BOOL(3));
+	tracked_table_follow(&call, tracked.table);
+	pending_settle(tracked.mesh);
+	PG_RETURN_INT64((int64) count_points(tracked.mesh));
 }
 
 /* abacus_untrack(mesh regclass, table regclass) */
@@ -363,13 +246,16 @@ abacus_sql_untrack(PG_FUNCTION_ARGS)
 {
 	Oid			mesh = PG_GETARG_OID(0);
 	Oid			table = PG_GETARG_OID(1);
-	Oid			function = tracking_function(get_func_namespace(fcinfo->flinfo->fn_oid));
-	List	   *triggers = tracking_triggers(function, mesh, table);
+	Oid			extension_namespace = get_func_namespace(fcinfo->flinfo->fn_oid);
+	List	   *triggers = NIL;
 	ListCell   *cell;
 	bool		found = false;
 
 	PreventCommandIfReadOnly("abacus_untrack()");
 	pending_settle(mesh);
+	for (int kind = 0; kind < TRACKED_KINDS; kind++)
+		triggers = list_concat(triggers, tracking_triggers(tracking_function(kind, extension_namespace),
+														   mesh, table));
 	foreach(cell, triggers)
 	{
 		TrackingTrigger *trigger = lfirst(cell);

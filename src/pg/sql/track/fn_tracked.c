@@ -21,6 +21,7 @@
  */
 #include "postgres.h"
 
+#include "access/table.h"
 #include "access/xact.h"
 #include "miscadmin.h"
 
@@ -29,6 +30,7 @@
 #include "pg/track/pending.h"
 #include "pg/track/tracked_points.h"
 #include "pg/track/tracking.h"
+#include "pg/track/transition.h"
 
 SQL_FUNCTION(abacus_sql_tracked);
 
@@ -58,7 +60,7 @@ check_protocol(FunctionCallInfo fcinfo)
 	if (!fits)
 		ereport(ERROR,
 				(errcode(ERRCODE_E_R_I_E_TRIGGER_PROTOCOL_VIOLATED),
-				 errmsg("function \"" TRACKING_FUNCTION "\" is not called as a trigger for a "
+				 errmsg("function \"abacus_tracked\" is not called as a trigger for a "
 						"statement with its transition tables"),
 				 errhint("Make the triggers with abacus_track().")));
 }
@@ -180,10 +182,13 @@ note_gone(void *pending, const uint64 *points, size_t count)
 static Pending *
 open_pending(const TriggerData *trigger, const Transition *transition)
 {
-	Oid			writer;
-	Oid			mesh = tracking_mesh(trigger, &writer);
+	PendingTable table = {.kind = TRACKED_POINTS,.name = RelationGetRelationName(trigger->tg_relation),
+		.trigger = trigger->tg_trigger->tgname,.shape = transition_expected(transition),
+		.has_geometries = transition->inputs < transition->columns
+	};
 
-	return pending_open(mesh, writer, trigger, transition);
+	table.mesh = tracking_mesh(trigger, &table.user);
+	return pending_open(&table);
 }
 
 static void
@@ -231,8 +236,7 @@ static void
 note_all_gone(const TriggerData *trigger, const Transition *transition)
 {
 	Oid			writer;
-	Oid			mesh = tracking_mesh(trigger, &writer);
-	Pending    *pending = pending_open(mesh, writer, trigger, transition);
+	Pending    *pending = open_pending(trigger, transition);
 	List	   *columns = NIL;
 	Source		source;
 	const uint64 *points;
@@ -242,6 +246,7 @@ note_all_gone(const TriggerData *trigger, const Transition *transition)
 
 	for (int i = 0; i < transition->inputs; i++)
 		columns = lappend(columns, transition->names[i]);
+	(void) tracking_mesh(trigger, &writer);
 	GetUserIdAndSecContext(&user, &security);
 	/* a user who may truncate it may lack the right to read it */
 	SetUserIdAndSecContext(writer, security | SECURITY_LOCAL_USERID_CHANGE);
@@ -255,13 +260,48 @@ note_all_gone(const TriggerData *trigger, const Transition *transition)
 	SetUserIdAndSecContext(user, security);
 }
 
+/* ---- Either ----------------------------------------------------------------- */
+
+/*
+ * Whether the mesh follows lines as well. Then it follows at commit, since a statement may delete a
+ * point that a line names, and the next one the line.
+ */
+static bool
+follows_lines(const TriggerData *trigger)
+{
+	Oid			writer;
+	Relation	mesh = table_open(tracking_mesh(trigger, &writer), AccessShareLock);
+	bool		follows = tracking_followed(mesh, TRACKED_LINES) != NULL;
+
+	table_close(mesh, NoLock);
+	return follows;
+}
+
+/* Changes the mesh at commit, or at once if the user wishes. */
+static void
+settle_soon(const TriggerData *trigger)
+{
+	Oid			writer;
+
+	if (pending_is_immediate())
+		pending_settle(tracking_mesh(trigger, &writer));
+}
+
 static void
 truncated(const TriggerData *trigger)
 {
-	if (TRIGGER_FIRED_AFTER(trigger->tg_event))
+	if (!TRIGGER_FIRED_AFTER(trigger->tg_event))
+	{
+		if (tracking_is_followed(trigger))
+			note_all_gone(trigger, transition_open(trigger));
+	}
+	else if (follows_lines(trigger))
+	{
+		pending_add_all(open_pending(trigger, transition_open(trigger)));
+		settle_soon(trigger);
+	}
+	else
 		change_mesh(trigger, NULL);
-	else if (tracking_is_followed(trigger))
-		note_all_gone(trigger, transition_open(trigger));
 }
 
 static void
@@ -271,10 +311,14 @@ changed(const TriggerData *trigger)
 
 	if (transition_changes(transition))
 	{
-		if (transition->deferred && !pending_is_immediate())
+		bool		with_lines = follows_lines(trigger);
+
+		if (with_lines || (transition->deferred && !pending_is_immediate()))
 			note_statement(trigger, transition);
 		else
 			change_mesh(trigger, transition);
+		if (with_lines)
+			settle_soon(trigger);
 	}
 	transition_close(transition);
 }

@@ -7,7 +7,7 @@
 
 #include "abacus/mesh_header.h"
 #include "pg/input/source.h"
-#include "pg/sql/constrain/named_rows.h"
+#include "pg/lines/named_rows.h"
 
 /* The columns of the rows of lines; those after y are NULL if the query does not have them. */
 enum
@@ -21,6 +21,15 @@ enum
 	LINE_ROW_PART,				/* neighbours in a line are joined if they have the same; NULL is 0 */
 	LINE_ROW_COLUMNS
 };
+
+/* How the rows of a query of lines are read. */
+typedef struct LineReading
+{
+	abacus_names names;			/* of the mesh */
+	const char *z;				/* attribute for the Z of geometries, or NULL */
+	const char *points_of;		/* table that gives points their places, for messages; NULL: the query does */
+	bool		is_quiet;		/* without notices */
+} LineReading;
 
 /* What the rows of a query of lines have. */
 typedef struct LineShape
@@ -36,12 +45,7 @@ typedef struct LineShape
 #define LINE_ROWS "abacus_given"
 #define LINE_IDS "abacus_lines_given"
 
-extern NamedRows *line_rows_read(Source *source, abacus_names names, const char *z,
-								 LineShape *shape);
+extern NamedRows *line_rows_read(Source *source, const LineReading *reading, LineShape *shape);
 extern NamedRows *line_ids_read(Source *source);
-extern bool line_rows_is_integer(Oid type);
-extern bool line_rows_is_number(Oid type);
-extern int64 line_rows_integer(Oid type, Datum value);
-extern double line_rows_number(Oid type, Datum value);
 
 #endif

@@ -11,10 +11,10 @@
 #include "miscadmin.h"
 
 #include "pg/base/float_array.h"
+#include "pg/lines/line_geometries.h"
 #include "pg/mesh/header.h"
 #include "pg/postgis/geometry_errors.h"
 #include "pg/postgis/geometry_read.h"
-#include "pg/sql/constrain/line_geometries.h"
 
 struct LineGeometries
 {
@@ -195,7 +195,7 @@ line_geometries_put(LineGeometries *geometries, int64 line, Datum geometry, bool
 	(void) read_geometry(geometries, &bytes, true, false);
 }
 
-/* Tells what has been left out, and what the rows have. */
+/* Says what the rows have. */
 void
 line_geometries_end(LineGeometries *geometries, LineShape *shape)
 {
@@ -205,6 +205,12 @@ line_geometries_end(LineGeometries *geometries, LineShape *shape)
 	shape->has_parts = geometries->any_parts;
 	shape->has_geometries = true;
 	shape->srid = geometries->srid;
+}
+
+/* Tells what has been left out. */
+void
+line_geometries_tell(const LineGeometries *geometries)
+{
 	if (geometries->any_z)
 		ereport(NOTICE,
 				(errmsg("Z of lines is left out"),

@@ -16,7 +16,7 @@
 #include "utils/guc.h"
 #include "utils/queryenvironment.h"
 
-#include "pg/sql/constrain/named_rows.h"
+#include "pg/lines/named_rows.h"
 
 /* An empty set of rows, in the current memory context. */
 NamedRows *

@@ -14,12 +14,11 @@
 #include "utils/builtins.h"
 #include "utils/lsyscache.h"
 
+#include "pg/lines/line_points.h"
+#include "pg/lines/new_lines.h"
 #include "pg/mesh/lines_table.h"
 #include "pg/mesh/mesh_lines.h"
 #include "pg/port/port.h"
-#include "pg/sql/constrain/line_points.h"
-#include "pg/sql/constrain/new_lines.h"
-#include "pg/track/by_hand.h"
 
 static Relation
 mesh_of(const Change *change)
@@ -195,17 +194,18 @@ stage_points(Change *change)
 
 /* Inserts the new points; if points wait already, they wait as well, and the lines too. */
 static void
-insert_points(Change *change)
+insert_points(Change *change, const NewPoints *kind)
 {
 	abacus_census *census = &change->writer.header->facts.census;
-	bool		waiting = census->inserted < census->staged;
+	bool		waiting = !kind->insert_waiting && census->inserted < census->staged;
 
 	stage_points(change);
 	if (waiting || census->vertices == 0)
 		census->lines_wait = 1;
 	if (change->points == 0)
 		return;
-	by_hand_refuse_points(change);
+	if (kind->allow != NULL)
+		kind->allow(change);
 	if (waiting)
 		change_stage(change);
 	else
@@ -214,7 +214,7 @@ insert_points(Change *change)
 
 /* Fixes the edges of the new lines, and frees those of lines that they have replaced. */
 static void
-change_edges(Change *change, const char *kind)
+change_edges(Change *change, const LineValues *values)
 {
 	abacus_census *census = &change->writer.header->facts.census;
 	bool		fixed = census->lines_wait == 0;
@@ -225,14 +225,33 @@ change_edges(Change *change, const char *kind)
 		return;
 	mesh_lines_open(&change->writer, &change->fixed);
 	mesh_lines_add(change->writer.host, change->fixed,
-				   psprintf("SELECT line, x, y, part, %s FROM " LINE_POINTS " ORDER BY line, position",
-							strcmp(kind, "soft") == 0 ? "true" : "false"));
+				   psprintf("SELECT p.line, p.x, p.y, p.part, %s = 'soft' FROM " LINE_POINTS " AS p %s "
+							"ORDER BY p.line, p.position", values->kind, values->joins));
 	change_fix(change);
+}
+
+/* Writes the points of new lines, LINE_POINTS, into the table of lines. */
+void
+new_lines_write(const char *table, const LineValues *values, const NamedRows *points)
+{
+	change_rows(table,
+				psprintf("INSERT INTO %s (line, position, point, x, y, part, kind, made) SELECT p.line, p.position, "
+						 "p.point, p.x, p.y, p.part, %s, %s FROM " LINE_POINTS " AS p %s "
+						 "ORDER BY p.line, p.position", table, values->kind, values->made, values->joins),
+				points->count);
+}
+
+/* Makes the points of lines that have been written vertices, and their segments fixed edges. */
+void
+new_lines_join(Change *change, const LineValues *values, const NewPoints *points)
+{
+	insert_points(change, points);
+	change_edges(change, values);
 }
 
 /* Adds the lines whose rows have been read; returns how many they are. */
 static uint64
-add_lines(Change *change, const NewLines *lines, const char *kind, ExistingLines existing)
+add_lines(Change *change, const NewLines *lines, const char *kind, ExistingLines existing, const NewPoints *allowed)
 {
 	Datum		count;
 	bool		isnull;
@@ -241,10 +260,11 @@ add_lines(Change *change, const NewLines *lines, const char *kind, ExistingLines
 	char	   *table;
 	bool		is_new;
 	NamedRows  *points;
+	LineValues	values = {psprintf("'%s'", kind), "NULL", ""};
 	int			level = plain_names_begin(true);
 
 	line_points_check(lines);
-	points = line_points_find(lines);
+	points = line_points_resolve(lines, line_points_scan(lines));
 	query_first("SELECT count(*) FROM (SELECT DISTINCT line FROM " LINE_ROWS ") AS s", &count, &isnull, 1);
 	plain_names_end(level);
 	table = lines_table_name(lines_table_make(mesh_of(change), &is_new));
@@ -253,16 +273,12 @@ add_lines(Change *change, const NewLines *lines, const char *kind, ExistingLines
 		refuse_existing(table);
 	else
 		replaced = new_lines_delete(change, table, "SELECT line FROM " LINE_ROWS, &soft);
-	change_rows(table,
-				psprintf("INSERT INTO %s (line, position, point, x, y, kind, part) SELECT line, position, point, "
-						 "x, y, '%s', part FROM " LINE_POINTS " ORDER BY line, position", table, kind),
-				points->count);
+	new_lines_write(table, &values, points);
 	if (is_new)
 		lines_table_index(mesh_of(change));
 	change_lines(change, DatumGetInt64(count) - (int64) replaced,
 				 (strcmp(kind, "soft") == 0 ? DatumGetInt64(count) : 0) - soft);
-	insert_points(change);
-	change_edges(change, kind);
+	new_lines_join(change, &values, allowed);
 	plain_names_end(level);
 	named_rows_free(points);
 	return (uint64) DatumGetInt64(count);
@@ -279,23 +295,23 @@ new_lines_vertices(Oid function, Oid mesh)
 
 /*
  * Reads the rows of a prepared query, and adds its lines; returns how many they are. `z` names the
- * attribute for the Z of geometries, or is NULL. Without any,
- * nothing has changed.
+ * attribute for the Z of geometries, or is NULL. `points` is for points that the mesh lacks. Without
+ * any lines, nothing has changed.
  */
 uint64
 new_lines_add(Change *change, Source *source, const char *vertices, const char *kind,
-			  ExistingLines existing, const char *z)
+			  ExistingLines existing, const char *z, const NewPoints *points)
 {
 	Oid			table = mesh_lines_table(mesh_of(change), MESH_WRITE);
-	NewLines	lines = {.vertices = vertices,.names = abacus_names_of(change->writer.header),.z = z};
-	NamedRows  *rows = line_rows_read(source, lines.names, z, &lines.shape);
+	NewLines	lines = {.vertices = vertices,.reading = {abacus_names_of(change->writer.header), z, NULL}};
+	NamedRows  *rows = line_rows_read(source, &lines.reading, &lines.shape);
 	uint64		count = 0;
 
 	lines.table = OidIsValid(table) ? lines_table_name(table) : NULL;
 	if (rows->count > 0)
 	{
 		named_rows_register(rows);
-		count = add_lines(change, &lines, kind, existing);
+		count = add_lines(change, &lines, kind, existing, points);
 	}
 	named_rows_free(rows);
 	if (count > 0)

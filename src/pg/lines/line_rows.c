@@ -8,14 +8,14 @@
 
 #include "catalog/pg_type.h"
 #include "utils/builtins.h"
-#include "utils/float.h"
 #include "utils/lsyscache.h"
 #include "utils/memutils.h"
 
 #include "pg/base/float_array.h"
+#include "pg/lines/line_geometries.h"
+#include "pg/lines/line_rows.h"
+#include "pg/lines/line_values.h"
 #include "pg/mesh/header.h"
-#include "pg/sql/constrain/line_geometries.h"
-#include "pg/sql/constrain/line_rows.h"
 
 #define ROWS_A_FETCH 1024
 #define PART_COLUMN "part"
@@ -35,23 +35,10 @@ typedef struct LineReader
 	bool		any_nameless;	/* so far */
 	int			part;			/* its column; -1: none */
 	LineGeometries *geometries; /* NULL: rows of points */
+	const char *points_of;		/* as in LineReading */
 } LineReader;
 
 /* ---- Columns --------------------------------------------------------------------- */
-
-/* Which types ids and positions may have. */
-bool
-line_rows_is_integer(Oid type)
-{
-	return type == INT2OID || type == INT4OID || type == INT8OID;
-}
-
-/* Which types coordinates and attributes may have. */
-bool
-line_rows_is_number(Oid type)
-{
-	return line_rows_is_integer(type) || type == FLOAT4OID || type == FLOAT8OID || type == NUMERICOID;
-}
 
 /* Whether the column may be a bare NULL, which has the type text. */
 static bool
@@ -89,7 +76,7 @@ check_types(const LineReader *reader)
 	{
 		Oid			type = reader->types[i];
 
-		if ((i < reader->ids || i == reader->part ? line_rows_is_integer(type) : line_rows_is_number(type)) ||
+		if ((i < reader->ids || i == reader->part ? line_value_is_integer(type) : line_value_is_number(type)) ||
 			(type == TEXTOID && may_be_null(reader, i) && reader->desc->natts > reader->ids))
 			continue;
 		ereport(ERROR,
@@ -174,34 +161,24 @@ open_query(LineReader *reader, Source *source)
 
 /* ---- Values ---------------------------------------------------------------------- */
 
-/* A value of an integer type. */
-int64
-line_rows_integer(Oid type, Datum value)
+/* The table of points lacks one. */
+static void
+refuse_unknown(const LineReader *reader, const Datum *values)
 {
-	return type == INT8OID ? DatumGetInt64(value)
-		: type == INT4OID ? DatumGetInt32(value) : DatumGetInt16(value);
-}
-
-/* A value of a type of numbers. */
-double
-line_rows_number(Oid type, Datum value)
-{
-	switch (type)
-	{
-		case FLOAT8OID:
-			return DatumGetFloat8(value);
-		case FLOAT4OID:
-			return DatumGetFloat4(value);
-		case NUMERICOID:
-			return DatumGetFloat8(DirectFunctionCall1(numeric_float8_no_overflow, value));
-		default:
-			return (double) line_rows_integer(type, value);
-	}
+	ereport(ERROR,
+			(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+			 errmsg("table \"%s\" has no point " INT64_FORMAT, reader->points_of,
+					DatumGetInt64(values[LINE_ROW_POINT])),
+			 errdetail("It is at position " INT64_FORMAT " of line " INT64_FORMAT ".",
+					   DatumGetInt64(values[LINE_ROW_POSITION]), DatumGetInt64(values[LINE_ROW_LINE])),
+			 errhint("Insert the point, or change the line, in the same transaction.")));
 }
 
 static void
 refuse_null(const LineReader *reader, const Datum *values, int column)
 {
+	if (column > LINE_ROW_POINT && reader->points_of != NULL)
+		refuse_unknown(reader, values);
 	if (column == LINE_ROW_LINE)
 		ereport(ERROR,
 				(errcode(ERRCODE_NULL_VALUE_NOT_ALLOWED),
@@ -244,9 +221,9 @@ read_ids(LineReader *reader, HeapTuple tuple, bool has_places, Datum *values, bo
 			reader->any_nameless = true;
 			continue;
 		}
-		if (!line_rows_is_integer(reader->types[i]))
+		if (!line_value_is_integer(reader->types[i]))
 			refuse_text(reader, i);
-		values[i] = Int64GetDatum(line_rows_integer(reader->types[i], values[i]));
+		values[i] = Int64GetDatum(line_value_integer(reader->types[i], values[i]));
 	}
 }
 
@@ -260,7 +237,7 @@ read_place(const LineReader *reader, HeapTuple tuple, Datum *values, bool *isnul
 
 		if (isnull[i])
 			refuse_null(reader, values, i);
-		number = line_rows_number(reader->types[i], value);
+		number = line_value_number(reader->types[i], value);
 		if (!isfinite(number))
 			ereport(ERROR,
 					(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
@@ -279,9 +256,9 @@ read_part(const LineReader *reader, HeapTuple tuple, Datum *values, bool *isnull
 
 	if (isnull[LINE_ROW_PART])
 		return;
-	if (!line_rows_is_integer(reader->types[reader->part]))
+	if (!line_value_is_integer(reader->types[reader->part]))
 		refuse_text(reader, reader->part);
-	values[LINE_ROW_PART] = Int64GetDatum(line_rows_integer(reader->types[reader->part], value));
+	values[LINE_ROW_PART] = Int64GetDatum(line_value_integer(reader->types[reader->part], value));
 }
 
 static void
@@ -301,10 +278,10 @@ read_attributes(const LineReader *reader, HeapTuple tuple, Datum *values, bool *
 
 		if (i == reader->part)
 			continue;
-		if (!none && !line_rows_is_number(reader->types[i]))
+		if (!none && !line_value_is_number(reader->types[i]))
 			refuse_text(reader, i);
 		if (!none)
-			numbers[reader->attributes[i]] = line_rows_number(reader->types[i], value);
+			numbers[reader->attributes[i]] = line_value_number(reader->types[i], value);
 	}
 	values[LINE_ROW_ATTRIBUTES] = attribute_array(numbers, (int) reader->count);
 }
@@ -366,14 +343,15 @@ read_rows(LineReader *reader, Source *source, bool has_places)
 
 /* Reads a query of lines and geometries. */
 static void
-read_geometries(LineReader *reader, Source *source, abacus_names names, const char *z,
-				LineShape *shape)
+read_geometries(LineReader *reader, Source *source, const LineReading *reading, LineShape *shape)
 {
 	reader->ids = LINE_ROW_LINE + 1;
-	reader->geometries = line_geometries_begin(reader->rows, reader->types[1], names, z);
+	reader->geometries = line_geometries_begin(reader->rows, reader->types[1], reading->names, reading->z);
 	check_types(reader);
 	read_rows(reader, source, true);
 	line_geometries_end(reader->geometries, shape);
+	if (!reading->is_quiet)
+		line_geometries_tell(reader->geometries);
 }
 
 /* Reads a query of points of lines. */
@@ -397,32 +375,29 @@ read_points(LineReader *reader, Source *source, abacus_names names, LineShape *s
 	shape->has_nameless = reader->any_nameless;
 }
 
-/*
- * Reads the rows of a prepared query that gives lines for a mesh with these names. The attribute `z`
- * gets the Z of geometries, unless it is NULL.
- */
+/* Reads the rows of a prepared query that gives lines. */
 NamedRows *
-line_rows_read(Source *source, abacus_names names, const char *z, LineShape *shape)
+line_rows_read(Source *source, const LineReading *reading, LineShape *shape)
 {
 	static const NamedColumn columns[] = {
 		{"line", INT8OID}, {"position", INT8OID}, {"point", INT8OID}, {"x", FLOAT8OID},
 		{"y", FLOAT8OID}, {"attributes", FLOAT8ARRAYOID}, {"part", INT8OID}
 	};
-	LineReader	reader = {.ids = LINE_ROW_POINT + 1};
+	LineReader	reader = {.ids = LINE_ROW_POINT + 1,.points_of = reading->points_of};
 
 	open_query(&reader, source);
 	memset(shape, 0, sizeof(*shape));
 	shape->srid = -1;
 	reader.rows = named_rows_create(LINE_ROWS, columns, lengthof(columns));
 	if (reader.desc->natts == 2 && geometry_is_type(reader.types[1]))
-		read_geometries(&reader, source, names, z, shape);
-	else if (z != NULL)
+		read_geometries(&reader, source, reading, shape);
+	else if (reading->z != NULL)
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
 				 errmsg("z is for lines given as geometries"),
-				 errhint("Name a column of the query \"%s\", after x and y.", z)));
+				 errhint("Name a column of the query \"%s\", after x and y.", reading->z)));
 	else
-		read_points(&reader, source, names, shape);
+		read_points(&reader, source, reading->names, shape);
 	return reader.rows;
 }
 

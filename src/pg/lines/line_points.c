@@ -2,7 +2,7 @@
  * line_points.c: the points of lines that a query gives: checked, found in the mesh, or new.
  *
  * All is SQL over the rows of the query (LINE_ROWS), the points of the mesh that have their ids or
- * their places (FOUND), and what comes of both (LINE_POINTS). One scan of the mesh finds the points,
+ * their places (FOUND_POINTS), and what comes of both (LINE_POINTS). One scan of the mesh finds the points,
  * and another one the greatest id if points without id are new.
  */
 #include "postgres.h"
@@ -10,12 +10,10 @@
 #include "catalog/pg_type.h"
 #include "utils/builtins.h"
 
-#include "pg/sql/constrain/line_points.h"
-
-#define FOUND "abacus_found"
+#include "pg/lines/line_points.h"
 
 /* The ids among them that rows give, each with its places. */
-#define FOUND_PLACES "(SELECT DISTINCT id, x, y FROM " FOUND " WHERE by_id)"
+#define FOUND_PLACES "(SELECT DISTINCT id, x, y FROM " FOUND_POINTS " WHERE by_id)"
 
 static char *
 number_of(Datum value)
@@ -84,10 +82,44 @@ check_positions(const NewLines *lines)
 				 errhint("A line has two points or more. A single point is inserted by abacus_insert().")));
 }
 
+/* The place that a row gives for an id, the least or the greatest. */
+#define GIVEN_AT \
+	"SELECT x, y, line, position FROM " LINE_ROWS " WHERE point = '" INT64_FORMAT \
+	"' ORDER BY x %s, y %s, line, position LIMIT 1"
+
+/* An error if there is an id that a query returns. */
+static void
+refuse_two_places(const char *query)
+{
+	Datum		values[1];
+	Datum		first[4];
+	Datum		second[4];
+	bool		isnull[4];
+	int64		id;
+
+	if (!query_first(query, values, isnull, 1))
+		return;
+	id = DatumGetInt64(values[0]);
+	query_first(psprintf(GIVEN_AT, id, "ASC", "ASC"), first, isnull, 4);
+	query_first(psprintf(GIVEN_AT, id, "DESC", "DESC"), second, isnull, 4);
+	ereport(ERROR,
+			(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+			 errmsg("point " INT64_FORMAT " is given with two places", id),
+			 errdetail("It is %s at position " INT64_FORMAT " of line " INT64_FORMAT ", and %s at position "
+					   INT64_FORMAT " of line " INT64_FORMAT ".", place(first), DatumGetInt64(first[3]),
+					   DatumGetInt64(first[2]), place(second), DatumGetInt64(second[3]),
+					   DatumGetInt64(second[2])),
+			 errhint("Give each place an id of its own, or NULL.")));
+}
+
 /* Checks that need no mesh. */
 void
 line_points_check(const NewLines *lines)
 {
+	/* a table of points may have an id twice, and then each position comes twice */
+	if (lines->reading.points_of != NULL)
+		refuse_two_places("SELECT point FROM " LINE_ROWS " WHERE point IS NOT NULL GROUP BY point "
+						  "HAVING min(x) <> max(x) OR min(y) <> max(y) ORDER BY point LIMIT 1");
 	check_positions(lines);
 	if (lines->shape.has_parts)
 		check_parts();
@@ -95,18 +127,26 @@ line_points_check(const NewLines *lines)
 
 /* ---- Points of the mesh -------------------------------------------------------------- */
 
-/*
- * Finds the points of the mesh with the ids of rows, or at their places. A line can name a point that is
- * gone, if its place still has another one. So what the lines of the mesh name counts as found as well: a
- * place with its id, or, where rows have no places, an id that the mesh lacks.
- */
-static NamedRows *
-find(const NewLines *lines)
+static const NamedColumn found_columns[FOUND_COLUMNS] = {
+	{"id", INT8OID}, {"x", FLOAT8OID}, {"y", FLOAT8OID}, {"vertex", INT8OID},
+	{"sequence", INT8OID}, {"attributes", FLOAT8ARRAYOID}, {"by_id", BOOLOID}
+};
+
+/* No points so far; the caller puts them, and registers the rows. */
+NamedRows *
+line_points_found(void)
 {
-	static const NamedColumn columns[] = {
-		{"id", INT8OID}, {"x", FLOAT8OID}, {"y", FLOAT8OID}, {"vertex", INT8OID},
-		{"sequence", INT8OID}, {"attributes", FLOAT8ARRAYOID}, {"by_id", BOOLOID}
-	};
+	return named_rows_create(FOUND_POINTS, found_columns, FOUND_COLUMNS);
+}
+
+/*
+ * Finds the points of the mesh with the ids of rows, or at their places, by a scan of the mesh. A line
+ * can name a point that is gone, if its place still has another one. So what the lines of the mesh name
+ * counts as found as well: a place with its id, or, where rows have no places, an id that the mesh lacks.
+ */
+NamedRows *
+line_points_scan(const NewLines *lines)
+{
 	const char *by_place = lines->shape.has_nameless || lines->shape.has_attributes
 		? "LEFT JOIN (SELECT DISTINCT point FROM " LINE_ROWS ") AS g ON g.point = v.id "
 		"LEFT JOIN (SELECT DISTINCT x, y FROM " LINE_ROWS ") AS p ON p.x = v.x AND p.y = v.y "
@@ -123,7 +163,7 @@ find(const NewLines *lines)
 	if (lines->table != NULL)
 		query = psprintf("%s UNION ALL SELECT DISTINCT l.point, l.x, l.y, NULL::bigint, NULL::bigint, "
 						 "NULL::float8[], true FROM %s AS l %s", query, lines->table, named);
-	return named_rows_of_query(FOUND, columns, lengthof(columns), query);
+	return named_rows_of_query(FOUND_POINTS, found_columns, FOUND_COLUMNS, query);
 }
 
 /* An id alone that the mesh has at two places. */
@@ -133,7 +173,7 @@ check_found_ids(void)
 	Datum		values[5];
 	bool		isnull[5];
 
-	if (query_first("SELECT id, min(x), min(y), max(x), max(y) FROM " FOUND " WHERE by_id GROUP BY id "
+	if (query_first("SELECT id, min(x), min(y), max(x), max(y) FROM " FOUND_POINTS " WHERE by_id GROUP BY id "
 					"HAVING min(x) <> max(x) OR min(y) <> max(y) ORDER BY id LIMIT 1", values, isnull, 5))
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
@@ -151,7 +191,7 @@ check_known(void)
 	bool		isnull[3];
 
 	if (query_first("SELECT g.point, g.line, g.position FROM " LINE_ROWS " AS g "
-					"LEFT JOIN " FOUND " AS f ON f.id = g.point WHERE f.id IS NULL "
+					"LEFT JOIN " FOUND_POINTS " AS f ON f.id = g.point WHERE f.id IS NULL "
 					"ORDER BY g.line, g.position LIMIT 1", values, isnull, 3))
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
@@ -161,37 +201,14 @@ check_known(void)
 				 errhint("Insert it first with abacus_insert(), or give x and y after the id.")));
 }
 
-/* The place that a row gives for an id, the least or the greatest. */
-#define GIVEN_AT \
-	"SELECT x, y, line, position FROM " LINE_ROWS " WHERE point = '" INT64_FORMAT \
-	"' ORDER BY x %s, y %s, line, position LIMIT 1"
-
 /* An id that rows give with two places, of which the mesh lacks one. */
 static void
 check_ids(void)
 {
-	Datum		values[2];
-	Datum		first[4];
-	Datum		second[4];
-	bool		isnull[4];
-	int64		id;
-
-	if (!query_first("SELECT g.point FROM " LINE_ROWS " AS g LEFT JOIN " FOUND_PLACES
-					 " AS f ON f.id = g.point AND f.x = g.x AND f.y = g.y WHERE g.point IS NOT NULL GROUP BY g.point "
-					 "HAVING (min(g.x) <> max(g.x) OR min(g.y) <> max(g.y)) AND bool_or(f.id IS NULL) "
-					 "ORDER BY g.point LIMIT 1", values, isnull, 1))
-		return;
-	id = DatumGetInt64(values[0]);
-	query_first(psprintf(GIVEN_AT, id, "ASC", "ASC"), first, isnull, 4);
-	query_first(psprintf(GIVEN_AT, id, "DESC", "DESC"), second, isnull, 4);
-	ereport(ERROR,
-			(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
-			 errmsg("point " INT64_FORMAT " is given with two places", id),
-			 errdetail("It is %s at position " INT64_FORMAT " of line " INT64_FORMAT ", and %s at position "
-					   INT64_FORMAT " of line " INT64_FORMAT ".", place(first), DatumGetInt64(first[3]),
-					   DatumGetInt64(first[2]), place(second), DatumGetInt64(second[3]),
-					   DatumGetInt64(second[2])),
-			 errhint("Give each place an id of its own, or NULL.")));
+	refuse_two_places("SELECT g.point FROM " LINE_ROWS " AS g LEFT JOIN " FOUND_PLACES
+					  " AS f ON f.id = g.point AND f.x = g.x AND f.y = g.y WHERE g.point IS NOT NULL GROUP BY g.point "
+					  "HAVING (min(g.x) <> max(g.x) OR min(g.y) <> max(g.y)) AND bool_or(f.id IS NULL) "
+					  "ORDER BY g.point LIMIT 1");
 }
 
 /* An id that rows give with another place than the mesh. */
@@ -216,13 +233,18 @@ check_places(void)
 
 /* ---- Attributes ------------------------------------------------------------------------ */
 
+/* A point found that is the vertex at its place, or, while all wait, will be: the first one there. */
+#define IS_VERTEX \
+	"(f.vertex = f.id OR f.vertex IS NULL AND NOT EXISTS (SELECT FROM " FOUND_POINTS " AS o WHERE o.x = f.x " \
+	"AND o.y = f.y AND (o.vertex = o.id OR o.sequence < f.sequence)))"
+
 /* All values of attributes at places of rows, of the rows and of vertices. */
 #define VALUES_AT_PLACES \
 	"(SELECT g.x, g.y, a.n, a.value, concat('position ', g.position, ' of line ', g.line) AS what FROM " \
 	LINE_ROWS " AS g, unnest(g.attributes) WITH ORDINALITY AS a (value, n) " \
 	"UNION ALL " \
-	"SELECT f.x, f.y, a.n, a.value, concat('vertex ', f.id) FROM " FOUND \
-	" AS f, unnest(f.attributes) WITH ORDINALITY AS a (value, n) WHERE f.vertex = f.id) AS s"
+	"SELECT f.x, f.y, a.n, a.value, concat('vertex ', f.id) FROM " FOUND_POINTS \
+	" AS f, unnest(f.attributes) WITH ORDINALITY AS a (value, n) WHERE " IS_VERTEX ") AS s"
 
 /* What gives the least or the greatest value of an attribute at a place. */
 static char *
@@ -251,7 +273,7 @@ check_attributes(const NewLines *lines)
 					values, isnull, 5))
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
-				 errmsg("attribute \"%s\" has two values at %s", lines->names.of[DatumGetInt64(values[2]) - 1],
+				 errmsg("attribute \"%s\" has two values at %s", lines->reading.names.of[DatumGetInt64(values[2]) - 1],
 						place(values)),
 				 errdetail("It is %s at %s, and %s at %s.", shown(values[3]), giver(values, "ASC"),
 						   shown(values[4]), giver(values, "DESC")),
@@ -281,6 +303,15 @@ greatest_id(const NewLines *lines)
 	return DatumGetInt64(value);
 }
 
+/* Ids for new points of rows that have none. */
+static const char *
+new_ids(const NewLines *lines)
+{
+	return lines->new_ids != NULL ? lines->new_ids
+		: psprintf("SELECT x, y, '" INT64_FORMAT "'::bigint + row_number() OVER (ORDER BY line, position) "
+				   "FROM known WHERE id IS NULL", greatest_id(lines));
+}
+
 /*
  * The points of lines whose rows have places, if some have no id. The vertex at the place is meant,
  * or else the first point that a row names there, or else a new one.
@@ -290,7 +321,7 @@ points_by_place(const NewLines *lines)
 {
 	return psprintf(
 		"WITH there AS (SELECT x, y, coalesce(min(vertex), (array_agg(id ORDER BY sequence))[1]) AS id "
-		" FROM " FOUND " GROUP BY x, y), "
+		" FROM " FOUND_POINTS " GROUP BY x, y), "
 		"named AS (SELECT DISTINCT ON (x, y) x, y, point AS id FROM " LINE_ROWS " WHERE point IS NOT NULL "
 		" ORDER BY x, y, line, position), "
 		"nameless AS (SELECT DISTINCT ON (x, y) x, y, line, position FROM " LINE_ROWS " WHERE point IS NULL "
@@ -299,14 +330,13 @@ points_by_place(const NewLines *lines)
 		" FROM nameless AS n LEFT JOIN there ON there.x = n.x AND there.y = n.y "
 		" LEFT JOIN named ON named.x = n.x AND named.y = n.y), "
 		"numbered AS (SELECT x, y, id, false AS is_new FROM known WHERE id IS NOT NULL UNION ALL "
-		" SELECT x, y, '" INT64_FORMAT "'::bigint + row_number() OVER (ORDER BY line, position), true "
-		" FROM known WHERE id IS NULL) "
+		" SELECT x, y, id, true FROM (%s) AS n (x, y, id)) "
 		"SELECT g.line, g.position, coalesce(g.point, n.id), g.x, g.y, g.attributes, "
 		" CASE WHEN g.point IS NULL THEN n.is_new ELSE f.id IS NULL END, g.part "
 		"FROM " LINE_ROWS " AS g "
 		"LEFT JOIN numbered AS n ON g.point IS NULL AND n.x = g.x AND n.y = g.y "
 		"LEFT JOIN " FOUND_PLACES " AS f ON f.id = g.point AND f.x = g.x AND f.y = g.y",
-		greatest_id(lines));
+		new_ids(lines));
 }
 
 /* The query that finds the points of lines. */
@@ -315,11 +345,13 @@ points_query(const NewLines *lines)
 {
 	if (lines->shape.has_nameless)
 		return points_by_place(lines);
+	if (lines->is_known)
+		return "SELECT line, position, point, x, y, NULL::float8[], false, part FROM " LINE_ROWS;
 	return lines->shape.has_places
 		? "SELECT g.line, g.position, g.point, g.x, g.y, g.attributes, f.id IS NULL, g.part FROM " LINE_ROWS " AS g "
 		"LEFT JOIN " FOUND_PLACES " AS f ON f.id = g.point AND f.x = g.x AND f.y = g.y"
 		: "SELECT g.line, g.position, g.point, f.x, f.y, NULL::float8[], false, g.part FROM " LINE_ROWS " AS g "
-		"JOIN (SELECT DISTINCT id, x, y FROM " FOUND ") AS f ON f.id = g.point";
+		"JOIN (SELECT DISTINCT id, x, y FROM " FOUND_POINTS ") AS f ON f.id = g.point";
 }
 
 static void
@@ -343,15 +375,17 @@ check_lengths(const NewLines *lines)
 				 : errhint("Leave one of the two points out.")));
 }
 
-/* Finds the points of the lines in the mesh, or chooses new ids for them: LINE_POINTS. */
+/*
+ * The points of the lines, LINE_POINTS: those found in the mesh, which are registered and then freed,
+ * or new ones, which get ids.
+ */
 NamedRows *
-line_points_find(const NewLines *lines)
+line_points_resolve(const NewLines *lines, NamedRows *found)
 {
 	static const NamedColumn columns[] = {
 		{"line", INT8OID}, {"position", INT8OID}, {"point", INT8OID}, {"x", FLOAT8OID},
 		{"y", FLOAT8OID}, {"attributes", FLOAT8ARRAYOID}, {"is_new", BOOLOID}, {"part", INT8OID}
 	};
-	NamedRows  *found = find(lines);
 	NamedRows  *points;
 
 	if (lines->shape.has_places)

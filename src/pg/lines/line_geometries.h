@@ -4,8 +4,8 @@
 #ifndef ABACUS_LINE_GEOMETRIES_H
 #define ABACUS_LINE_GEOMETRIES_H
 
+#include "pg/lines/line_rows.h"
 #include "pg/postgis/catalogue.h"
-#include "pg/sql/constrain/line_rows.h"
 
 typedef struct LineGeometries LineGeometries;
 
@@ -14,5 +14,6 @@ extern LineGeometries *line_geometries_begin(NamedRows *rows, Oid type, abacus_n
 extern void line_geometries_put(LineGeometries *geometries, int64 line, Datum geometry,
 								bool is_null);
 extern void line_geometries_end(LineGeometries *geometries, LineShape *shape);
+extern void line_geometries_tell(const LineGeometries *geometries);
 
 #endif
