@@ -3,6 +3,7 @@ import os
 import pathlib
 
 from . import write_vtu
+from .held import loss
 from .series import Series, Step
 
 suffixes = (".pvd",)
@@ -30,3 +31,7 @@ def write(mesh, file, z, query):
                 os.remove(path)
     file.write(f'<?xml version="1.0"?>\n<VTKFile type="Collection" version="0.1" byte_order="LittleEndian">\n<Collection>\n'
                f'{"".join(lines)}</Collection>\n</VTKFile>\n'.encode())
+
+
+def lost(mesh, z):
+    return loss(mesh)
