@@ -20,9 +20,10 @@ def joined(parts, counts, none):
 class Grid:
     """`points`: n x 2 or n x 3. `ids`: of the points, or None. `data`: {name: n numbers, or n x k}. `cells`: {kind: m x corners}, where a corner
     is a point's place, from 0. `labels`: {(kind, name): m numbers}, NaN where a cell has none. `markers`: {kind: m whole numbers}, where 0 is none.
-    `groups`: what a file calls its labels, as (dimension, number, name). `notes`: what a user should know."""
+    `groups`: what a file calls its labels, as (dimension, number, name). `notes`: what a user should know. `lines`: of a text, functions that
+    say in which line a point, or a cell of a kind, is: {"points" or kind: function of its place}."""
 
-    def __init__(self, points, cells, ids=None, data=None, labels=None, markers=None, groups=(), notes=()):
+    def __init__(self, points, cells, ids=None, data=None, labels=None, markers=None, groups=(), notes=(), lines=None):
         self.points = points
         self.cells = cells
         self.ids = ids
@@ -31,6 +32,11 @@ class Grid:
         self.markers = markers or {}
         self.groups = list(groups)
         self.notes = list(notes)
+        self.lines = lines or {}
+
+    def where(self, what, place):
+        """The line of something, to begin a message with, if it is known."""
+        return f"line {self.lines[what](place)}: " if what in self.lines else ""
 
     def check(self):
         """A reader is not believed: whatever it has misread should not become a mesh."""
@@ -39,8 +45,8 @@ class Grid:
             raise Failed("has no points")
         self.points = points
         if not numpy.isfinite(points).all():
-            raise Failed(f"the point at place {numpy.flatnonzero(~numpy.isfinite(points).all(axis=1))[0]}, counted from 0, has a coordinate that is "
-                         "not finite")
+            place = int(numpy.flatnonzero(~numpy.isfinite(points).all(axis=1))[0])
+            raise Failed(f"{self.where('points', place)}point {place if self.ids is None else self.ids[place]} has a coordinate that is not finite")
         for kind, corners in self.cells.items():
             self.cells[kind] = self.checked(kind, numpy.asarray(corners))
         for kind, values in (*((kind, values) for (kind, _), values in self.labels.items()), *self.markers.items()):
@@ -61,7 +67,8 @@ class Grid:
             raise Failed(f"corners of its cells ({kind}) are not whole numbers")
         wrong = (corners < 0) | (corners >= len(self.points))
         if wrong.any():
-            raise Failed(f"a cell ({kind}) has the corner {corners[wrong][0]}, but there are {len(self.points)} points, counted from 0")
+            where = self.where(kind, int(numpy.flatnonzero(wrong.any(axis=1))[0]))
+            raise Failed(f"{where}a cell ({kind}) has the corner {corners[wrong][0]}, but there are {len(self.points)} points, counted from 0")
         return corners.astype(numpy.int64)
 
     def take_corners(self):

@@ -6,6 +6,7 @@ import numpy
 from .psql import Failed
 from .words import Words, numbers
 
+MAGIC = (b"\1\0\0\0", b"\0\0\0\1")  # with which binary files begin, in either byte order
 CODES = {3: "Dimension", 4: "Vertices", 5: "Edges", 6: "Triangles", 7: "Quadrilaterals", 8: "Tetrahedra", 9: "Prisms", 10: "Hexahedra", 13: "Corners",
          14: "Ridges", 15: "RequiredVertices", 16: "RequiredEdges", 17: "RequiredTriangles", 24: "TrianglesP2", 25: "EdgesP2", 30: "TetrahedraP2",
          49: "Pyramids", 50: "BoundingBox", 54: "End", 60: "Normals"}
@@ -25,13 +26,20 @@ class TextWords:
         begun = False
         while self.words.at < len(self.words.words):
             word, = self.words.take(1, "keywords")
+            if not begun and word != "MeshVersionFormatted":
+                self.words.fail("does not begin with MeshVersionFormatted")
+            begun = True
             if is_keyword(word):
-                begun = True
                 yield word
-            elif not begun:
-                self.words.fail(f"{word}, where a keyword should be")
             if word == "End":
                 break
+
+    line_of_point = None
+
+    def points_begun(self, width):
+        """The table that was just read is that of the points."""
+        begin = self.row
+        self.line_of_point = lambda n: self.words.line(begin + n * width)
 
     def whole(self, what):
         return self.words.whole(what)
@@ -76,6 +84,11 @@ class BinaryWords:
             raise Failed(f"has version {self.version} of Medit's format; 1 to 4 are read")
         self.integer = "i8" if self.version == 4 else "i4"
         self.place = "i8" if self.version >= 3 else "i4"
+
+    line_of_point = None
+
+    def points_begun(self, width):
+        pass
 
     def fail(self, said, back=0):
         raise Failed(f"byte {self.at}: {said}")

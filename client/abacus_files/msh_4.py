@@ -48,6 +48,8 @@ def blocks(file, section):
             head = section.numbers("i4", 3).tolist()
             if file.version != "4.1":
                 head[:2] = head[1::-1]
+            if not 0 <= head[0] <= 3:
+                section.fail(f"a block of dimension {head[0]}")
             yield (*head, *section.numbers(file.size, 1).tolist())
 
     return count, each()

@@ -71,11 +71,12 @@ def read(path):
     if not cells:
         raise Failed("has no triangles (E3T)")
     ids = nodes.column(0, 1, int)[:, 0]
-    places = Places(ids)
+    places = Places(ids, nodes.lines.__getitem__)
     found, labels = {}, {}
     for card, of in cells.items():
         kind, corners = CELLS[card]
         found[kind] = places.of(of.column(1, 1 + corners, int), lambda n, of=of, corners=corners: of.lines[n // corners])
         labels.update({(kind, name): values for name, values in materials_of(of, 1 + corners, said).items()})
     notes = [f"left out: {', '.join(dict.fromkeys(left))}" + (" (NS: node strings)" if "NS" in left else "")] if left else []
-    return Grid(nodes.column(1, 4, float), found, ids=ids, labels=labels, notes=notes)
+    return Grid(nodes.column(1, 4, float), found, ids=ids, labels=labels, notes=notes,
+                lines={"points": nodes.lines.__getitem__})

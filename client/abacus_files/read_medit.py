@@ -2,7 +2,7 @@
 import numpy
 
 from .grid import Grid
-from .medit_words import BinaryWords, TextWords
+from .medit_words import MAGIC, BinaryWords, TextWords
 from .psql import Failed
 
 suffixes = (".mesh", ".meshb")
@@ -13,20 +13,10 @@ KINDS = {"Edges": ("line", 2), "Triangles": ("triangle", 3), "Quadrilaterals": (
 SILENT = ("MeshVersionFormatted", "End", "BoundingBox")
 
 
-def is_of_medit(path):
-    """Other programs, such as MFEM, have the suffix .mesh too."""
-    with open(path, "rb") as file:
-        head = file.read(4096)
-    return head[:4] in (b"\1\0\0\0", b"\0\0\0\1") or b"MeshVersionFormatted" in head
-
-
 def read(path):
-    if not is_of_medit(path):
-        from . import read_other
-        return read_other.read(path)
     with open(path, "rb") as file:
         data = file.read()
-    words = BinaryWords(data) if data[:4] in (b"\1\0\0\0", b"\0\0\0\1") else TextWords(data.decode(errors="replace"))
+    words = BinaryWords(data) if data[:4] in MAGIC else TextWords(data.decode(errors="replace"))
     dimension, points, references, cells, labels, markers, left = None, None, None, {}, {}, {}, []
     ended = False
     for keyword in words.keywords():
@@ -38,6 +28,7 @@ def read(path):
             if dimension is None or points is not None:
                 words.fail("Vertices without a Dimension before them, or for the second time")
             points, references = words.table("Vertices", dimension, 1)
+            words.points_begun(dimension + 1)
         elif keyword in KINDS:
             kind, corners = KINDS[keyword]
             if kind in cells:
@@ -57,4 +48,5 @@ def read(path):
     if not ended:
         notes.append("has no End, so it may be cut off")
     data = {"medit:ref": references[:, 0]} if references.any() else {}
-    return Grid(points, cells, ids=numpy.arange(1, len(points) + 1), data=data, labels=labels, markers=markers, notes=notes)
+    lines = {"points": words.line_of_point} if words.line_of_point else {}
+    return Grid(points, cells, ids=numpy.arange(1, len(points) + 1), data=data, labels=labels, markers=markers, notes=notes, lines=lines)

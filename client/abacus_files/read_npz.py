@@ -19,7 +19,7 @@ class Members:
         """An array of numbers of this shape; None: however many there are."""
         try:
             values = self.archive[name]
-        except (ValueError, EOFError, OSError, zipfile.BadZipFile) as error:
+        except (ValueError, EOFError, OSError, NotImplementedError, zipfile.BadZipFile) as error:
             raise Failed(f"the array {name} cannot be read: {error}") from error
         if values.dtype.kind not in "iuf" or len(values.shape) != len(wanted) or any(want is not None and has != want for has, want in zip(values.shape, wanted)):
             raise Failed(f"the array {name} has the type {values.dtype} and the shape {values.shape}, where numbers in the shape "
@@ -39,7 +39,7 @@ def read(path):
     try:
         with numpy.load(path, allow_pickle=False) as archive:
             return grid_of(archive)
-    except (zipfile.BadZipFile, ValueError) as error:
+    except (zipfile.BadZipFile, ValueError, NotImplementedError, OSError, EOFError, KeyError) as error:
         raise Failed(f"is not an archive of numpy arrays, or is cut off: {error}") from error
 
 

@@ -10,6 +10,10 @@ UNREAD = {"vn": "normals", "vt": "places in textures"}
 SHAPES = {"curv", "curv2", "surf"}
 
 
+def kind_of(count):
+    return {3: "triangle", 4: "quad"}.get(count, f"polygon of {count}")
+
+
 def place(n, word, count):
     """A corner's place from 0. OBJ counts from 1, and negative numbers back from the last vertex so far."""
     try:
@@ -23,7 +27,7 @@ def place(n, word, count):
 
 
 def read(path):
-    vertices, lines, corners, notes, left = [], [], {}, [], {}
+    vertices, lines, faces, corners, notes, left = [], [], {}, {}, [], {}
     for n, line in enumerate(read_text(path).replace("\\\n", " ").split("\n"), 1):
         words = line.split("#", 1)[0].split()
         if not words:
@@ -37,6 +41,9 @@ def read(path):
                 left["colours of vertices"] = None
         elif words[0] == "f":
             count = len(words) - 1
+            if count == 0:
+                raise Failed(f"line {n}: a face without corners")
+            faces.setdefault(kind_of(count), []).append(n)
             corners.setdefault(count, []).extend(place(n, word, len(vertices)) for word in words[1:])
         elif words[0] in UNREAD:
             left[UNREAD[words[0]]] = None
@@ -46,7 +53,6 @@ def read(path):
             raise Failed(f"line {n}: has curves or curved surfaces; only triangles make a mesh")
     if left:
         notes.append(f"left out: {', '.join(left)}")
-    kinds = {3: "triangle", 4: "quad"}
     points = numbers([word for vertex in vertices for word in vertex], float, lambda at: lines[at // 3]).reshape(-1, 3)
-    return Grid(points, {kinds.get(count, f"polygon of {count}"): numpy.array(places, dtype=numpy.int64).reshape(-1, count)
-                         for count, places in corners.items()}, notes=notes)
+    return Grid(points, {kind_of(count): numpy.array(places, dtype=numpy.int64).reshape(-1, count)
+                         for count, places in corners.items()}, notes=notes, lines={"points": lines.__getitem__, **{kind: of.__getitem__ for kind, of in faces.items()}})

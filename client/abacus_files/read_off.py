@@ -11,6 +11,10 @@ suffixes = (".off",)
 KINDS = {1: "vertex", 2: "line", 3: "triangle", 4: "quad"}
 
 
+def kind_of(count):
+    return KINDS.get(count, f"polygon of {count}")
+
+
 def counts(rows):
     """How many vertices and faces there are; they may stand beside the first word."""
     first = rows.row("its first line") if rows.more() else [""]
@@ -38,13 +42,14 @@ def read(path):
     left = {}
     if any(len(words) > 3 for _, words in taken[:vertices]):
         left["colours, normals and the like of vertices"] = None
-    corners = {}
+    corners, lines = {}, {"points": [line for line, _ in taken[:vertices]]}
     for line, words in taken[vertices:]:
         count, = numbers(words[:1], int, lambda n, line=line: line).tolist()
         if not 1 <= count < len(words):
             raise Failed(f"line {line}: a face has fewer corners than it says: {' '.join(words)}")
+        lines.setdefault(kind_of(count), []).append(line)
         corners.setdefault(count, []).extend(numbers(words[1: count + 1], int, lambda n, line=line: line).tolist())
         if len(words) > count + 1:
             left["colours of faces"] = None
-    return Grid(points, {KINDS.get(count, f"polygon of {count}"): numpy.array(places, dtype=numpy.int64).reshape(-1, count) for count, places in corners.items()},
-                notes=[f"left out: {', '.join(left)}"] if left else [])
+    return Grid(points, {kind_of(count): numpy.array(places, dtype=numpy.int64).reshape(-1, count) for count, places in corners.items()},
+                notes=[f"left out: {', '.join(left)}"] if left else [], lines={what: of.__getitem__ for what, of in lines.items()})

@@ -159,6 +159,8 @@ def faces(grid, face):
     if lists is None:
         raise Failed(f"has no faces with {' or '.join(FACES)}")
     counts = numpy.full(len(lists), lists.shape[1]) if isinstance(lists, numpy.ndarray) else numpy.array([len(corners) for corners in lists])
+    if (counts == 0).any():
+        raise Failed(f"face {numpy.flatnonzero(counts == 0)[0]}, counted from 0, has no corners")
     for count in numpy.unique(counts).tolist():
         kind, of = KINDS.get(count, f"polygon of {count}"), numpy.flatnonzero(counts == count)
         grid.cells[kind] = lists[of] if isinstance(lists, numpy.ndarray) else numpy.array([lists[n] for n in of.tolist()])

@@ -40,7 +40,7 @@ def nodes(rows):
     ids = rows.numbers(table[::width], int, begin, 1)
     values = rows.numbers(table, float, begin, width).reshape(count, width)
     names = [f"tetgen:attr{k + 1}" for k in range(attributes)] + ["tetgen:ref"] * (markers > 0)
-    return ids, values[:, 1: 1 + dimension], {name: values[:, 1 + dimension + k] for k, name in enumerate(names)}
+    return lambda n: rows.rows[begin + n][0], ids, values[:, 1: 1 + dimension], {name: values[:, 1 + dimension + k] for k, name in enumerate(names)}
 
 
 def corners_of(rows, table, begin, width, corners, places):
@@ -85,8 +85,8 @@ def beside(path):
 
 def read(path):
     path = pathlib.Path(path)
-    ids, points, data = Part(path, ".node").read(nodes)
-    places = Places(ids)
+    line_of, ids, points, data = Part(path, ".node").read(nodes)
+    places = Places(ids, line_of)
     kind, cells, regions = Part(path, ".ele").read(elements, points.shape[1], places)
     found, markers, notes = {kind: cells}, {}, []
     for suffix, (facet, widths) in FACETS.items():
@@ -98,4 +98,5 @@ def read(path):
             if marks is not None:
                 markers[facet] = marks
             notes.append(f"{part.path.name} was read, too: {len(corners)} facets" + ("" if marks is not None else " without markers"))
-    return Grid(points, found, ids=ids, data=data, labels=regions, markers=markers, notes=notes)
+    return Grid(points, found, ids=ids, data=data, labels=regions, markers=markers, notes=notes,
+                lines={"points": line_of})

@@ -126,14 +126,15 @@ class Rows:
 
 
 class Places:
-    """Numbers of points as the points' places, from 0."""
+    """Numbers of points as the points' places, from 0. line_of(n): the line of the nth point."""
 
-    def __init__(self, numbers):
+    def __init__(self, numbers, line_of=None):
         self.order = numpy.argsort(numbers, kind="stable")
         self.ordered = numbers[self.order]
         twice = self.ordered[1:] == self.ordered[:-1]
         if twice.any():
-            raise Failed(f"two points have the number {self.ordered[1:][twice][0]}")
+            second = int(self.order[1:][twice][0])
+            raise Failed(f"{f'line {line_of(second)}: ' if line_of else ''}two points have the number {numbers[second]}")
 
     def of(self, corners, line_of=None):
         """Those of an array of numbers. line_of(n): the line of the nth."""

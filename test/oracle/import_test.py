@@ -411,6 +411,32 @@ class Import(unittest.TestCase):
         with self.assertRaises(Exception):
             self.read(self.file("t.mesh", text.replace("Tetrahedra\n1", "Tetrahedra\n2")))
 
+    def test_damaged(self):
+        """Files of which a part is lost, twice there or replaced: an error that says what is wrong, never another exception."""
+        random = numpy.random.default_rng(11)
+        words = [b"x", b"-1", b"99999999999", b"1e400", b"", b"0", b"1_0", b"nan"]
+        seeds = {"d.ply": PLY.encode(), "d.vtu": vtu_of(piece_of(1, ((0, 0), (4, 0), (0, 3)), 0)).replace("><", ">\n<").encode(), "d.meshb": self.meshb(2, "<"),
+                 "d.mesh": b"MeshVersionFormatted 2\nDimension 2\nVertices\n3\n0 0 0\n1 0 0\n0 1 0\nTriangles\n1\n1 2 3 5\nEnd\n",
+                 "d.obj": b"v 0 0 0\nv 4 0 0\nv 0 3 0\nvt 0 0\nf -3/1/1 -2/1 -1//1\n", "d.off": b"OFF\n3 1 0\n0 0 0\n4 0 0\n0 3 0\n3 0 1 2\n",
+                 "d.2dm": b"MESH2D\nE3T 1 1 2 3 1\nND 1 0 0 0\nND 2 4 0 0\nND 3 0 3 0\n", "d.node": b"3 2 1 1\n1 0 0 5 1\n2 4 0 5 0\n3 0 3 5 1\n",
+                 "d.msh": b"$MeshFormat\n4.1 0 8\n$EndMeshFormat\n$Entities\n0 0 1 0\n1 0 0 0 1 1 0 1 5 0\n$EndEntities\n$Nodes\n1 3 1 3\n2 1 0 3\n1\n2\n3\n"
+                          b"0 0 0\n1 0 0\n0 1 0\n$EndNodes\n$Elements\n1 1 1 1\n2 1 2 1\n1 1 2 3\n$EndElements\n"}
+        self.file("d.ele", "1 3 1\n1 1 2 3 7\n")
+        refused = 0
+        for name, whole in seeds.items():
+            self.read(self.file(name, whole))
+            for n in range(150):
+                parts = whole.split((b" ", b"\n")[n % 2])
+                at, kind = random.integers(len(parts)), random.integers(4)
+                parts[at: at + (kind > 0)] = [parts[random.integers(len(parts))], b"", words[random.integers(len(words))], parts[at][: len(parts[at]) // 2]][kind: kind + 1]
+                damaged = (b" ", b"\n")[n % 2].join(parts) if n % 5 else whole[: random.integers(1, len(whole))]
+                try:
+                    self.read(self.file(name, damaged))
+                except Failed as error:
+                    refused += 1
+                    self.assertTrue(str(error))
+        self.assertGreater(refused, 500)
+
     def test_names(self):
         """An attribute z beside z gets a _; a name that is too long is cut; ids that are not all different are said to be."""
         piece = piece_of(1, ((0, 0), (4, 0), (0, 3)), 0).replace("4 0 0", "4 0 2").replace('Name="h"', 'Name="z"')
