@@ -13,6 +13,6 @@ words.py       numbers in text, with their lines; xml_lines.py: XML, likewise
 read_*.py      one format each, read_other.py by meshio; msh_*.py, medit_words.py, vtk_array.py, vtu_pieces.py and xdmf_*.py are parts of them
 apart.py       a process for a reader, with limits
 read.py        which reader a file's name asks for
-input.py       what abacus_load is given
+input.py       what abacus_load is given; octree_input.py: what abacus_octree_from_rows is given
 load.py        that into tables, and a mesh
 """

@@ -16,7 +16,7 @@ from .grid import Grid
 from .psql import Failed
 
 SECONDS, BYTES_A_SECOND = 20, 100_000  # of processor time
-GROUPS = ("cells", "data", "labels", "markers")  # of arrays
+GROUPS = ("cells", "data", "labels", "markers", "codes")  # of arrays
 MEMORY, TIMES = 2 << 30, 100  # so many bytes, and for each of the file's
 
 

@@ -51,17 +51,21 @@ class Mesh:
         return f"abacus_numbered_vertices({self.sql})"
 
     def id_range(self):
-        """The least and the greatest id, and whether all are different."""
-        least, greatest, different = self.session.all(
-            f"SELECT min(id), max(id), (count(DISTINCT id) = count(*))::int::int8 FROM {self.numbered_vertices()} HAVING count(*) > 0", ["int8"] * 3)[0]
-        return least, greatest, bool(different)
+        """The least and the greatest id."""
+        return self.session.all(f"SELECT coalesce(min(id), 0), coalesce(max(id), 0) FROM {self.numbered_vertices()}", ["int8"] * 2)[0]
 
-    def lines(self):
-        """How many fixed edges it has."""
-        if self.dimension != 2:
-            return 0
-        (count,), = self.session.all(f"SELECT count(*) FROM abacus_edges({self.sql}, fixed => true)", ["int8"])
-        return count
+    def ids_differ(self):
+        (differ,), = self.session.all(f"SELECT (count(DISTINCT id) = count(*))::int::int8 FROM {self.numbered_vertices()}", ["int8"])
+        return bool(differ)
+
+    def unheld(self):
+        """What no file holds, as texts."""
+        lines = 0
+        if self.dimension == 2:
+            (lines,), = self.session.all(f"SELECT count(*) FROM abacus_edges({self.sql}, fixed => true)", ["int8"])
+        return [text for count, text in (
+            (self.repeated, f"{self.repeated} points that equal a vertex"), (self.waiting, f"{self.waiting} points that wait to be inserted"),
+            (lines, f"lines, to which {lines} edges belong, and that these are fixed"), (self.srid, f"the SRID {self.srid}")) if count > 0]
 
     def of_label(self, n, greatest):
         """Whether the numbers of a label are whole and not beyond this one; and how many simplices have none."""

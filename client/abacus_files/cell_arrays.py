@@ -6,6 +6,7 @@ import numpy
 from .grid import CORNERS, OF_HIGHER_ORDER, SIMPLICES, SMALL
 
 MARKER = "marker"
+OCTANTS = ("quad", "hexahedron")
 CODE = re.compile("code_*")  # as abacus-export writes it beside the ids of points: a place on the curve, which the mesh gets anew
 
 
@@ -50,6 +51,7 @@ def take(grid, arrays):
     numbers, left = {}, []
     for name, values in arrays.items():
         if is_code(name, values, grid.ids is not None or "id" in grid.data):
+            grid.codes.update({kind: numpy.asarray(part).reshape(-1).astype(numpy.int64) for kind, part in values.items() if kind in OCTANTS})
             continue
         found = columns(name, values)
         numbers.update(found)
@@ -62,7 +64,7 @@ def take(grid, arrays):
     for name, values in numbers.items():
         if name == marker:
             grid.markers.update({kind: values[kind].astype(numpy.int64) for kind in of[facet] if kind in values})
-        has = [kind for kind in of[simplex] if kind in values]
+        has = [kind for kind in (*of[simplex], *OCTANTS) if kind in values]
         if name == marker and not any(values[kind].any() for kind in has):
             continue  # 0 on simplices says nothing
         grid.labels.update({(kind, name): values[kind].astype(float) for kind in has})

@@ -20,7 +20,7 @@ def joined(parts, counts, none):
 class Grid:
     """`points`: n x 2 or n x 3. `ids`: of the points, or None. `data`: {name: n numbers, or n x k}. `cells`: {kind: m x corners}, where a corner
     is a point's place, from 0. `labels`: {(kind, name): m numbers}, NaN where a cell has none. `markers`: {kind: m whole numbers}, where 0 is none.
-    `groups`: what a file calls its labels, as (dimension, number, name). `notes`: what a user should know. `lines`: of a text, functions that
+    `codes`: {kind: m places of octants on the curve}. `groups`: what a file calls its labels, as (dimension, number, name). `notes`: what a user should know. `lines`: of a text, functions that
     say in which line a point, or a cell of a kind, is: {"points" or kind: function of its place}."""
 
     def __init__(self, points, cells, ids=None, data=None, labels=None, markers=None, groups=(), notes=(), lines=None):
@@ -30,6 +30,7 @@ class Grid:
         self.data = data or {}
         self.labels = labels or {}
         self.markers = markers or {}
+        self.codes = {}
         self.groups = list(groups)
         self.notes = list(notes)
         self.lines = lines or {}
@@ -49,7 +50,7 @@ class Grid:
             raise Failed(f"{self.where('points', place)}point {place if self.ids is None else self.ids[place]} has a coordinate that is not finite")
         for kind, corners in self.cells.items():
             self.cells[kind] = self.checked(kind, numpy.asarray(corners))
-        for kind, values in (*((kind, values) for (kind, _), values in self.labels.items()), *self.markers.items()):
+        for kind, values in (*((kind, values) for (kind, _), values in self.labels.items()), *self.markers.items(), *self.codes.items()):
             if len(values) != len(self.cells[kind]):
                 raise Failed(f"has {len(self.cells[kind])} cells ({kind}), but {len(values)} numbers for them")
         for kind, values in self.markers.items():

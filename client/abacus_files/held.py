@@ -10,11 +10,3 @@ def loss(mesh, ids=True, attributes=True, labels=True, markers=True):
         if there and held is not True:
             lost.append(held if held else what)
     return lost
-
-
-def of_all_formats(mesh):
-    """What no file holds."""
-    lines = mesh.lines()
-    return [text for count, text in (
-        (mesh.repeated, f"{mesh.repeated} points that equal a vertex"), (mesh.waiting, f"{mesh.waiting} points that wait to be inserted"),
-        (lines, f"lines, to which {lines} edges belong, and that these are fixed"), (mesh.srid, f"the SRID {mesh.srid}")) if count > 0]

@@ -15,6 +15,40 @@ def reals(values):
     return ["" if value != value else repr(value) for value in values.tolist()]
 
 
+def table(name, columns, arrays):
+    """A temporary table; `arrays`: of each column, how it is written, and its values."""
+    yield 0, statement(f"CREATE TEMP TABLE abacus_import_{name} ({', '.join(columns)}) ON COMMIT DROP")
+    yield 0, f"COPY abacus_import_{name} FROM STDIN (FORMAT csv);\n"
+    count = len(arrays[0][1])
+    for begin in range(0, count, ROWS):
+        rows = zip(*(write(values[begin: begin + ROWS]) for write, values in arrays))
+        yield min(ROWS, count - begin), "\n".join(map(",".join, rows)) + "\n"
+    yield 0, "\\.\n"
+
+
+def texts(names):
+    return "ARRAY[" + ", ".join(map(literal, names)) + "]::text[]"
+
+
+class OctreeScript:
+    """The same for an octree."""
+
+    def __init__(self, name, found):
+        self.name, self.found = name, found
+        self.rows = len(found.codes)
+
+    def pieces(self):
+        found = self.found
+        corners = ", ".join(f"ARRAY[{', '.join(map(repr, corner.tolist()))}]::float8[]" for corner in (found.lower, found.upper))
+        yield 0, "BEGIN;\n"
+        yield from table("leaves", ["code bigint", "level integer", *(f"a{n} float8" for n in range(len(found.values)))],
+                         [(wholes, found.codes), (wholes, found.levels), *((reals, values) for values in found.values)])
+        # one statement, whose answer is the number of leaves
+        yield 0, statement(f"SELECT abacus_octree_from_rows(abacus_octree_create({literal(self.name)}, {found.dimension}, {corners}, "
+                           f"attributes => {texts(found.names)}), 'TABLE abacus_import_leaves')")
+        yield 0, "COMMIT;\n"
+
+
 class Script:
     """What psql is sent, in pieces of (rows, text). Names and texts come by way of statement(), where psql does not look into them."""
 
@@ -30,30 +64,18 @@ class Script:
     def pieces(self):
         found = self.found
         yield 0, "BEGIN;\n"
-        yield from self.table("points", ["id bigint", *(f"{name} float8" for name in (*self.axes, *self.attributes))],
+        yield from table("points", ["id bigint", *(f"{name} float8" for name in (*self.axes, *self.attributes))],
                               [(wholes, found.ids), *((reals, axis) for axis in found.points.T), *((reals, values) for values in found.values)])
-        yield from self.table("simplices", [*(f"{name} bigint" for name in self.corners), *(f"{name} float8" for name in self.labels)],
+        yield from table("simplices", [*(f"{name} bigint" for name in self.corners), *(f"{name} float8" for name in self.labels)],
                               [*((wholes, found.ids[corner]) for corner in found.simplices.T), *((reals, values) for values in found.labels)])
-        yield from self.table("facets", [*(f"{name} bigint" for name in self.corners[:-1]), "marker integer"],
+        yield from table("facets", [*(f"{name} bigint" for name in self.corners[:-1]), "marker integer"],
                               [*((wholes, found.ids[corner]) for corner in found.facets.T), (wholes, found.markers)])
         yield 0, self.load()
         if self.groups is not None:
             yield 0, self.named_groups()
         yield 0, "COMMIT;\n"
 
-    def table(self, name, columns, arrays):
-        yield 0, statement(f"CREATE TEMP TABLE abacus_import_{name} ({', '.join(columns)}) ON COMMIT DROP")
-        yield 0, f"COPY abacus_import_{name} FROM STDIN (FORMAT csv);\n"
-        count = len(arrays[0][1])
-        for begin in range(0, count, ROWS):
-            rows = zip(*(write(values[begin: begin + ROWS]) for write, values in arrays))
-            yield min(ROWS, count - begin), "\n".join(map(",".join, rows)) + "\n"
-        yield 0, "\\.\n"
-
     def load(self):
-        def texts(names):
-            return "ARRAY[" + ", ".join(map(literal, names)) + "]::text[]"
-
         points = f"SELECT {', '.join(['id', *self.axes, *self.attributes])} FROM abacus_import_points"
         return statement(f"SELECT abacus_load({literal(self.mesh)}, {literal(points)}, 'TABLE abacus_import_simplices', "
                          f"attributes => {texts(self.found.names)}, labels => {texts(self.found.label_names) if self.labels else 'NULL'}, "

@@ -5,16 +5,18 @@ from .psql import literal
 # abacus_octree_elements has corners with x fastest; files go around a face.
 AROUND = {2: [0, 1, 3, 2], 3: [0, 1, 3, 2, 4, 5, 7, 6]}
 
+FINEST = {2: 31, 3: 21}  # levels
+
 
 class Octree(Mesh):
     """Its labels are the attributes of leaves and their levels. Attributes of a point are how many anchors it hangs between, and their numbers."""
 
-    facets, waiting, repeated = 0, 0, 0
+    facets = 0
 
     def __init__(self, session, name, progress=None):
         self.session, self.progress = session, progress
         self.sql = f"{literal(name)}::regclass"
-        self.dimension, self.simplices = figures(session, self.sql, ("dimension", "leaves"))
+        self.dimension, self.simplices, self.finest = figures(session, self.sql, ("dimension", "leaves", "levels"))
         (self.vertices,), = session.all(f"SELECT count(*) FROM abacus_octree_nodes({self.sql})", ["int8"])
         (self.srid,), = session.all(f"SELECT abacus_srid({self.sql})::int8", ["int8"])
         self.corners, self.axes = 1 << self.dimension, "xyz"[: self.dimension]
@@ -23,10 +25,14 @@ class Octree(Mesh):
         self.labels = unlike(session.texts(f"SELECT name FROM abacus_attributes({self.sql}) ORDER BY position"), ("level",)) + ["level"]
 
     def id_range(self):
-        return 0, self.vertices - 1, True
+        return 0, self.vertices - 1
 
-    def lines(self):
-        return 0
+    def ids_differ(self):
+        return True
+
+    def unheld(self):
+        return ([f"the SRID {self.srid}"] if self.srid > 0 else []) + (
+            [f"that its leaves may have the level {self.finest} at most"] if self.finest < FINEST[self.dimension] else [])
 
     def of_label(self, n, greatest):
         return False, 0

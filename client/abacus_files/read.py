@@ -3,6 +3,7 @@ import os
 import sys
 
 from . import apart, read_2dm, read_medit, read_msh, read_npz, read_obj, read_off, read_other, read_ply, read_tetgen, read_vtu, read_xdmf
+from . import octree_input
 from .input import Input
 from .psql import Failed
 
@@ -21,9 +22,11 @@ def read_here(path, keep_apart):
 
 
 def read_file(path, keep_apart):
-    """What a file has. It is read in a process of its own; errors name the file."""
+    """What a file has, of a mesh or of an octree. It is read in a process of its own; errors name the file."""
     try:
-        found = Input(apart.read(path, keep_apart=keep_apart))
+        grid = apart.read(path, keep_apart=keep_apart)
+        leaves = octree_input.kind_of(grid)
+        found = octree_input.OctreeInput(grid, leaves) if leaves else Input(grid)
     except Failed as error:
         raise Failed(f"{path}: {error}") from error
     for note in found.notes:

@@ -54,6 +54,8 @@ def grid_of(archive):
         raise Failed(f"has simplices of {simplices.shape[1]} corners in {points.shape[1]} dimensions; only triangles and tetrahedra make a mesh")
     known = {"points", "simplices", "codes"}
     grid = Grid(points, {kind: simplices})
+    if "codes" in archive.files:
+        grid.codes[kind] = members.table("codes", len(simplices)).astype(numpy.int64)
     if "ids" in archive.files:
         grid.ids = members.table("ids", len(points)).astype(numpy.int64)
     for array, names, rows, prefix in ("values", "attributes", len(points), "value"), ("labels", "label_names", len(simplices), "label"):

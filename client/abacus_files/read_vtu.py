@@ -16,7 +16,7 @@ KINDS = {1: ("vertex", 1), 3: ("line", 2), 5: ("triangle", 3), 8: ("pixel", 4), 
          13: ("wedge", 6), 14: ("pyramid", 5), 21: ("line3", 3), 22: ("triangle6", 6), 23: ("quad8", 8), 24: ("tetra10", 10), 25: ("hexahedron20", 20),
          34: ("triangle7", 7)}
 OF_ANY_ORDER = {35: "line", 68: "line", 69: "triangle", 71: "tetra", 75: "line", 76: "triangle", 78: "tetra"}
-TAKEN = ("line", "triangle", "tetra")
+TAKEN = ("line", "triangle", "tetra", "quad", "hexahedron")
 GHOST = 1  # a bit of vtkGhostType: the cell is another piece's
 
 

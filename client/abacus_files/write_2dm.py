@@ -27,8 +27,8 @@ class Material:
 
 
 def holds_ids(mesh):
-    least, greatest, different = mesh.id_range()
-    return different and least > 0 and greatest <= GREATEST
+    least, greatest = mesh.id_range()
+    return least > 0 and greatest <= GREATEST and mesh.ids_differ()
 
 
 def write(mesh, file, z):

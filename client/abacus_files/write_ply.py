@@ -17,7 +17,7 @@ def plain(names, taken):
 
 def type_of_ids(mesh):
     """PLY has whole numbers of 32 bits; doubles hold those up to 2^53. None: nothing holds them."""
-    least, greatest, _ = mesh.id_range()
+    least, greatest = mesh.id_range()
     reach = max(greatest, -least - 1)
     return "int" if reach < 1 << 31 else "double" if reach <= 1 << 53 else None
 

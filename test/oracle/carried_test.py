@@ -197,9 +197,19 @@ class Carried(unittest.TestCase):
             for n in hangs:
                 anchors = [int(data[f"anchor_{k + 1}"][n]) for k in range(int(data["hanging"][n]))]
                 numpy.testing.assert_array_equal(points[n], points[anchors].mean(axis=0))
-            for suffix in ".npz", ".xdmf", *((".ply",) if dimension == 2 else ()):
-                done = run("abacus-import", self.export(name, "o" + suffix), "carried_none")
-                self.assertIn("quad: " if dimension == 2 else "hexahedron: ", done.stderr)
+            leaves = f"SELECT code, level, lower, upper, attributes FROM abacus_octants('{name}%s') ORDER BY code"
+            for suffix in (".vtu", ".npz", ".xdmf") if dimension == 3 else (".vtu",):
+                abacus.psql(f"DROP TABLE IF EXISTS {name}_again, {name}_again_vertices")
+                done = run("abacus-import", self.export(name, "o" + suffix), f"{name}_again")
+                self.assertEqual((done.returncode, done.stderr), (0, ""))
+                self.assertEqual(abacus.rows(leaves % "_again"), abacus.rows(leaves % ""))
+        abacus.psql("SELECT abacus_octree_create('carried_coarse', 2, '{0,0}', '{1,1}', levels => 5)")
+        self.export("carried_coarse", "c.vtu", lost="that its leaves may have the level 5 at most")
+        done = run("abacus-import", self.export("carried_octree2", "o.ply"), "carried_none")  # PLY has no codes
+        self.assertIn("quad: ", done.stderr)
+        with numpy.load(self.at / "o.npz") as arrays:
+            numpy.savez(self.at / "moved.npz", **{**arrays, "codes": arrays["codes"][::-1]})
+        self.assertIn("is not there in the octree", run("abacus-import", self.at / "moved.npz", "carried_none").stderr)
         abacus.psql("SELECT abacus_octree_create('carried_torn', 2, '{0,0}', '{1,1}'); SELECT abacus_octree_refine('carried_torn', 'SELECT 5, 0.49, 0.49')")
         done = run("abacus-export", "carried_torn", self.at / "torn.vtu")
         self.assertEqual((done.returncode, list(self.at.glob("torn*"))), (1, []))
