@@ -1,4 +1,4 @@
-"""TetGen's and Triangle's .node and .ele, with the .face or .edge that lies beside them: files of one name."""
+"""TetGen's and Triangle's .node and .ele, with the .face, .edge or (of Triangle) .poly that lies beside them: files of one name."""
 import pathlib
 
 import numpy
@@ -78,9 +78,24 @@ def facets(rows, widths, places):
     return found, rows.numbers(table[1 + corners:: width], int, begin, 1) if markers else None
 
 
+def segments(rows, widths, places):
+    """Those of Triangle's .poly, behind the points, which it may leave to .node."""
+    count, dimension, attributes, markers = (rows.whole(2, "its first line") + [0, 0])[:4]
+    rows.table(count, 1 + dimension + attributes + (markers > 0), "points")
+    return facets(rows, widths, places)
+
+
 def beside(path):
     """The files that belong to one, this one among them."""
-    return [Part(pathlib.Path(path), suffix).path for suffix in suffixes]
+    return [Part(pathlib.Path(path), suffix).path for suffix in (*suffixes, ".poly")]
+
+
+def facet_parts(path, dimension):
+    """The files with facets that are there: (part, how it is read, kind, its widths). .poly is read where Triangle has written no .edge."""
+    parts = [(Part(path, suffix), facets, *FACETS[suffix]) for suffix in FACETS if dimension == 3 or suffix == ".edge"]
+    found = [entry for entry in parts if entry[0].exists()]
+    poly = Part(path, ".poly")
+    return found if found or dimension == 3 or not poly.exists() else [(poly, segments, *FACETS[".edge"])]
 
 
 def read(path):
@@ -89,14 +104,12 @@ def read(path):
     places = Places(ids, line_of)
     kind, cells, regions = Part(path, ".ele").read(elements, points.shape[1], places)
     found, markers, notes = {kind: cells}, {}, []
-    for suffix, (facet, widths) in FACETS.items():
-        part = Part(path, suffix)
-        if part.exists() and not (points.shape[1] == 2 and suffix == ".face"):
-            corners, marks = part.read(facets, widths, places)
-            facet = facet + "6" if corners.shape[1] == 6 else facet
-            found[facet] = corners
-            if marks is not None:
-                markers[facet] = marks
-            notes.append(f"{part.path.name} was read, too: {len(corners)} facets" + ("" if marks is not None else " without markers"))
+    for part, take, facet, widths in facet_parts(path, points.shape[1]):
+        corners, marks = part.read(take, widths, places)
+        facet = facet + "6" if corners.shape[1] == 6 else facet
+        found[facet] = corners
+        if marks is not None:
+            markers[facet] = marks
+        notes.append(f"{part.path.name} was read, too: {len(corners)} facets" + ("" if marks is not None else " without markers"))
     return Grid(points, found, ids=ids, data=data, labels=regions, markers=markers, notes=notes,
                 lines={"points": line_of})

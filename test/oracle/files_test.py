@@ -296,6 +296,13 @@ class Files(unittest.TestCase):
             self.assertEqual(ended, (status, ""))
             self.assertEqual([path.name for path in self.at.glob("ended*")], [] if number != signal.SIGKILL else ["ended.pvd.part"])
 
+    def test_ended_beside(self):
+        """So it is with the arrays beside an XDMF."""
+        ended = self.end(signal.SIGTERM, "FROM generate_series(1, 2) AS slow_step", "abacus-export", "files_space", self.at / "beside.xdmf", "--series",
+                         "SELECT id, 1 AS step, pg_sleep(1000)::text FROM generate_series(1, 2) AS slow_step (id)")
+        self.assertEqual(ended, (143, ""))
+        self.assertEqual(list(self.at.glob("beside*")), [])
+
     def test_import_ended(self):
         """So it is with an import that waits for a lock, and there is no mesh."""
         (self.at / "one.off").write_text("OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n")

@@ -237,6 +237,10 @@ class Import(unittest.TestCase):
         self.file("t.edge", "3 1\n1 1 2 1\n2 2 3 4\n3 4 3 0\n")
         found = self.read(self.file("t.ele", "2 6 1\n1 1 2 3 1 1 1 5\n2 2 4 3 1 1 1 6\n"))
         self.assertEqual((found.facets.tolist(), found.markers.tolist(), found.labels[0].tolist()), ([[0, 1], [1, 2]], [1, 4], [5, 6]))
+        (self.at / "t.edge").unlink()
+        self.file("t.poly", "0 2 0 1\n3 1\n1 1 2 1\n2 2 3 4\n3 4 3 0\n0\n")
+        found = self.read(str(self.at / "t.node"))
+        self.assertEqual((found.facets.tolist(), found.markers.tolist(), found.notes[0]), ([[0, 1], [1, 2]], [1, 4], "t.poly was read, too: 3 facets"))
         (self.at / "t.ele").unlink()
         with self.assertRaisesRegex(Failed, "t.ele: is needed beside it"):
             self.read(str(self.at / "t.node"))
