@@ -73,6 +73,11 @@ class Mesh:
                                           f"::int::int8, count(*) FILTER (WHERE labels[{n + 1}] IS NULL) FROM abacus_cells({self.sql})", ["int8"] * 2)[0]
         return bool(whole), missing
 
+    def will_read(self, points, cells=1):
+        """Says how often a writer reads all points and all cells, where that is not once."""
+        if self.progress:
+            self.progress.total = points * self.vertices + cells * self.simplices
+
     def chunks(self, query, types):
         for chunk in self.session.chunks(query, types):
             if self.progress:

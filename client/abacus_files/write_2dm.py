@@ -35,7 +35,10 @@ def write(mesh, file, z):
     if mesh.dimension != 2:
         raise Failed("2DM has triangles and quadrangles only, no tetrahedra: use .vtu or .npz")
     material = Material(mesh)
-    ids = numpy.concatenate([ids for ids, *_ in mesh.points()] or [[]]) if holds_ids(mesh) else None
+    ids = None
+    if holds_ids(mesh):
+        mesh.will_read(2)
+        ids = numpy.concatenate([ids for ids, *_ in mesh.points()] or [[]])
     card = "E3T" if mesh.corners == 3 else "E4Q"
     file.write(b"MESH2D\n" + (b"NUM_MATERIALS_PER_ELEM 1\n" if material.at is not None else b""))
     number = 0

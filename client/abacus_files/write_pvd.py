@@ -15,6 +15,7 @@ def write(mesh, file, z, query):
     stem = pathlib.Path(file.name.removesuffix(".part")).with_suffix("")
     digits = max(4, len(str(len(series.steps))))
     done, lines = [], []
+    mesh.will_read(len(series.steps), len(series.steps))
     try:
         for n, step in enumerate(series.steps):
             path = f"{stem}_{n:0{digits}}.vtu"

@@ -117,6 +117,7 @@ class Cells:
 def write_arrays(mesh, arrays, z, query):
     """Fills the HDF5 file; returns the grids in XML: (time or None, its content)."""
     series = Series(mesh.session, query) if query is not None else None
+    mesh.will_read(1 + len(series.steps if series else []))
     names = unlike(mesh.attributes + (series.names if series else []), ("id",))
     own = names[: len(mesh.attributes)]
     write_points(mesh, arrays, z, own, "/mesh")
