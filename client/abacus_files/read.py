@@ -2,8 +2,7 @@
 import os
 import sys
 
-from . import apart, read_2dm, read_medit, read_msh, read_npz, read_obj, read_off, read_other, read_ply, read_tetgen, read_vtu, read_xdmf
-from . import octree_input
+from . import apart, octree_input, read_2dm, read_medit, read_msh, read_npz, read_obj, read_off, read_other, read_ply, read_tetgen, read_vtu, read_xdmf
 from .input import Input
 from .psql import Failed
 

@@ -7,8 +7,10 @@ from .words import Places, numbers, read_text
 
 suffixes = (".2dm",)
 # {card: (name of meshio, corners)}
-CELLS = {"E3T": ("triangle", 3), "E6T": ("triangle6", 6), "E4Q": ("quad", 4), "E8Q": ("quad8", 8), "E9Q": ("quad9", 9), "E2L": ("line", 2), "E3L": ("line3", 3)}
-SILENT = ("MESH2D", "MESHNAME", "BEGPARAMDEF", "ENDPARAMDEF", "GM", "TIME", "DY", "TU", "TD", "KEY", "SI", "NUME", "BGPGC", "BEDISP", "BEFONT", "BCPGC", "BEGCURVE", "ENDCURVE")
+CELLS = {"E3T": ("triangle", 3), "E6T": ("triangle6", 6), "E4Q": ("quad", 4), "E8Q": ("quad8", 8), "E9Q": ("quad9", 9), "E2L": ("line", 2),
+         "E3L": ("line3", 3)}
+SILENT = ("MESH2D", "MESHNAME", "BEGPARAMDEF", "ENDPARAMDEF", "GM", "TIME", "DY", "TU", "TD", "KEY", "SI", "NUME",
+          "BGPGC", "BEDISP", "BEFONT", "BCPGC", "BEGCURVE", "ENDCURVE")
 MATERIALS = "NUM_MATERIALS_PER_ELEM"
 
 

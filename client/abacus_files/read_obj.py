@@ -54,5 +54,6 @@ def read(path):
     if left:
         notes.append(f"left out: {', '.join(left)}")
     points = numbers([word for vertex in vertices for word in vertex], float, lambda at: lines[at // 3]).reshape(-1, 3)
+    lines_of = {"points": lines.__getitem__, **{kind: of.__getitem__ for kind, of in faces.items()}}
     return Grid(points, {kind_of(count): numpy.array(places, dtype=numpy.int64).reshape(-1, count)
-                         for count, places in corners.items()}, notes=notes, lines={"points": lines.__getitem__, **{kind: of.__getitem__ for kind, of in faces.items()}})
+                         for count, places in corners.items()}, notes=notes, lines=lines_of)
