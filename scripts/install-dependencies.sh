@@ -40,7 +40,7 @@ test=(
     python3-numpy python3-scipy python3-matplotlib python3-vtk9   # for comparing answers
     gdal-bin                        # reads tiles; gdal_grid, for comparison
     libp4est-dev libopenmpi-dev     # p4est, for comparing octrees
-    python3-meshio                  # reads and writes the files of meshes
+    python3-meshio python3-gmsh python3-h5py   # read and write the files of meshes
     chromium                        # shows the viewer's page in headless mode
     mmdebstrap                      # a Debian with another version of PostgreSQL
 )

@@ -26,6 +26,12 @@ RESET work_mem;
 SELECT abacus_create('steps', 3);
 SELECT abacus_insert('steps', 'SELECT * FROM points WHERE id % 2 = 0'), abacus_insert('steps', 'SELECT * FROM points WHERE id % 2 = 1');
 SELECT count(*) FROM (SELECT id, x, y, z FROM abacus_numbered_vertices('space') EXCEPT ALL SELECT id, x, y, z FROM abacus_numbered_vertices('steps')) AS other;
+-- labels of simplices, in the order of abacus_labels; NULL where a simplex has none
+SELECT abacus_label('field', 'SELECT code, v0, v1, v2, v0 AS soil, CASE WHEN v0 = 1 THEN 0.5 END AS wet FROM abacus_simplices(''field'') WHERE v1 <> 3');
+SELECT count(*) AS labelled FROM abacus_numbered_simplices('field') WHERE labels[1] IS NOT NULL;
+SELECT count(*) FROM (SELECT s.code, a.id, b.id, c.id, s.labels FROM abacus_numbered_simplices('field') AS s JOIN abacus_numbered_vertices('field') AS a ON a.number = n0
+	JOIN abacus_numbered_vertices('field') AS b ON b.number = n1 JOIN abacus_numbered_vertices('field') AS c ON c.number = n2
+	EXCEPT ALL SELECT code, v0, v1, v2, labels FROM abacus_cells('field')) AS other;
 -- nothing of an empty mesh, nor of none
 SELECT abacus_create('empty', 2);
 SELECT count(*) FROM abacus_numbered_vertices('empty');

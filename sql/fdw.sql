@@ -181,5 +181,22 @@ SELECT h FROM plot_points;
 \echo :LAST_ERROR_SQLSTATE
 SELECT abacus_add_attribute('plot', 'k');
 SELECT fault, code, part, message FROM abacus_check('plot');
+-- labels of simplices are columns of cells, with their names
+SELECT abacus_triangulate('soils', 'VALUES (1, 0, 0, 1), (2, 4, 0, 2), (3, 4, 4, 3), (4, 0, 4, 4)', '{code}');
+SELECT abacus_label('soils', 'SELECT code, v0, v1, v2, 7 AS soil, NULL::float8 AS x FROM abacus_simplices(''soils'') WHERE 1 IN (v0, v1, v2)');
+SELECT abacus_publish('soils', geometry => false);
+SELECT v0, v1, v2, code_2, soil, x FROM soils_cells ORDER BY v0, v1, v2;
+SELECT count(*) FROM soils_cells WHERE soil = 7;
+SELECT * FROM soils_points LIMIT 0;
+-- a label that comes later is not shown; a number that no label has is an error
+SELECT abacus_label('soils', 'SELECT code, v0, v1, v2, 8 AS later FROM abacus_simplices(''soils'')');
+SELECT * FROM soils_cells LIMIT 0;
+ALTER FOREIGN TABLE soils_cells ALTER COLUMN soil OPTIONS (SET holds 'label 4');
+SELECT soil FROM soils_cells;
+\echo :LAST_ERROR_SQLSTATE
+ALTER FOREIGN TABLE soils_points ALTER COLUMN x OPTIONS (SET holds 'label 1');
+SELECT x FROM soils_points;
+\echo :LAST_ERROR_SQLSTATE
+DROP TABLE soils;
 DROP SCHEMA elsewhere;
 DROP TABLE wells, large, empty, plot CASCADE;

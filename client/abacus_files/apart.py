@@ -4,6 +4,7 @@ The process sends a line of JSON and the arrays that it names, as numpy writes t
 """
 import json
 import os
+import pathlib
 import resource
 import signal
 import subprocess
@@ -15,6 +16,7 @@ from .grid import Grid
 from .psql import Failed
 
 SECONDS, BYTES_A_SECOND = 20, 100_000  # of processor time
+GROUPS = ("cells", "data", "labels", "markers", "codes")  # of arrays
 MEMORY, TIMES = 2 << 30, 100  # so many bytes, and for each of the file's
 
 
@@ -30,12 +32,19 @@ class Pipe:
         self.read, self.write = file.read, file.write
 
 
+def size_of(path):
+    """The bytes of a file and of those beside it that its reader reads, too."""
+    from . import read
+    beside = getattr(read.reader(path), "beside", lambda path: [])(path)
+    return sum(file.stat().st_size for file in {pathlib.Path(path), *beside} if file.is_file())
+
+
 def send(grid, out):
-    named = {"points": grid.points, **({"ids": grid.ids} if grid.ids is not None else {})}
-    for group in "cells", "data", "tags":
-        for name, values in getattr(grid, group).items():
-            named[f"{group}:{name}"] = values
-    out.write(json.dumps({"arrays": list(named), "notes": grid.notes}).encode() + b"\n")
+    named = {("points",): grid.points, **({("ids",): grid.ids} if grid.ids is not None else {})}
+    for group in GROUPS:
+        for key, values in getattr(grid, group).items():
+            named[group, key] = values
+    out.write(json.dumps({"arrays": list(named), "notes": grid.notes, "groups": grid.groups}).encode() + b"\n")
     for values in named.values():
         numpy.lib.format.write_array(Pipe(out), numpy.ascontiguousarray(values), allow_pickle=False)
 
@@ -44,12 +53,11 @@ def receive(line, source):
     head = json.loads(line)
     if "failed" in head:
         raise Failed(head["failed"])
-    grid = Grid(None, {}, notes=head["notes"])
-    for name in head["arrays"]:
+    grid = Grid(None, {}, groups=head["groups"], notes=head["notes"])
+    for group, *key in head["arrays"]:
         values = numpy.lib.format.read_array(Pipe(source), allow_pickle=False)
-        group, _, part = name.partition(":")
-        if part or group in ("cells", "data", "tags"):
-            getattr(grid, group)[part] = values
+        if key:
+            getattr(grid, group)[tuple(key[0]) if isinstance(key[0], list) else key[0]] = values
         else:
             setattr(grid, group, values)
     return grid
@@ -59,7 +67,7 @@ def main(path, options):
     """In the process apart: reads the file, and sends what it has found."""
     out = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)  # what a library prints is no answer
-    seconds, memory = limits(os.path.getsize(path))
+    seconds, memory = limits(size_of(path))
     for limit, value in (resource.RLIMIT_CPU, seconds), (resource.RLIMIT_AS, memory), (resource.RLIMIT_CORE, 0):
         try:
             resource.setrlimit(limit, (value, value))
@@ -96,7 +104,7 @@ def read(path, **options):
     """The grid of a file."""
     if not os.path.isfile(path):
         raise Failed("is not a file" if os.path.exists(path) else "No such file")
-    size = os.path.getsize(path)
+    size = size_of(path)
     code = f"import sys; sys.path[:] = {sys.path!r}; from abacus_files import apart; apart.main(sys.argv[1], {options!r})"
     reader = subprocess.Popen([sys.executable, "-c", code, path], stdout=subprocess.PIPE, env=dict(os.environ, OPENBLAS_NUM_THREADS="1"),
                               preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_IGN))  # Ctrl-C ends it by way of this process

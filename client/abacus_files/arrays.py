@@ -19,40 +19,99 @@ def no_coordinate(attribute):
     return f"{attribute} is missing or infinite at some vertices, so it cannot be the third coordinate"
 
 
-class Mesh:
-    """A mesh of the session's snapshot. Counts and names are there at once; the arrays come in chunks, in any number of passes."""
+def figures(session, sql, names):
+    """Figures of abacus_stats; -1 where it has none of that name."""
+    return session.all("SELECT " + ", ".join(f"coalesce(max(value) FILTER (WHERE name = '{name}'), -1)::int8" for name in names)
+                       + f" FROM abacus_stats({sql})", ["int8"] * len(names))[0]
 
-    def __init__(self, session, name):
-        self.session = session
+
+def values_of(array, count):
+    """SQL for so many elements of an array of numbers; a missing one is NaN."""
+    return [f"coalesce({array}[{n + 1}], 'NaN')" for n in range(count)]
+
+
+class Mesh:
+    """A mesh of the session's snapshot. Counts and names are there at once; the arrays come in chunks, in any number of passes.
+
+    `attributes` of points, `labels` of simplices, `facets`: how many have markers."""
+
+    def __init__(self, session, name, progress=None):
+        self.session, self.progress = session, progress
         self.sql = f"{literal(name)}::regclass"
-        self.dimension, self.vertices, self.simplices = session.all(
-            "SELECT " + ", ".join(f"coalesce(max(value) FILTER (WHERE name = '{figure}'), -1)::int8" for figure in ("dimension", "vertices", "simplices"))
-            + f" FROM abacus_stats({self.sql})", ["int8"] * 3)[0]
-        if self.simplices < 0:
-            raise Failed(f"{name} is an octree or a quadtree: it has no triangles or tetrahedra to write to a file")
+        self.dimension, self.vertices, self.simplices, self.waiting, self.repeated = figures(
+            session, self.sql, ("dimension", "vertices", "simplices", "waiting", "duplicates"))
+        self.corners = self.dimension + 1
         self.attributes = session.texts(f"SELECT name FROM abacus_attributes({self.sql}) ORDER BY position")
+        self.labels = session.texts(f"SELECT unnest(abacus_labels({self.sql}))")
+        (self.facets,), = session.all(f"SELECT count(*) FROM abacus_facets({self.sql})", ["int8"])
+        (self.srid,), = session.all(f"SELECT abacus_srid({self.sql})::int8", ["int8"])
         self.axes = "xyz"[: self.dimension]
 
     def numbered_vertices(self):
         return f"abacus_numbered_vertices({self.sql})"
 
+    def id_range(self):
+        """The least and the greatest id."""
+        return self.session.all(f"SELECT coalesce(min(id), 0), coalesce(max(id), 0) FROM {self.numbered_vertices()}", ["int8"] * 2)[0]
+
+    def ids_differ(self):
+        (differ,), = self.session.all(f"SELECT (count(DISTINCT id) = count(*))::int::int8 FROM {self.numbered_vertices()}", ["int8"])
+        return bool(differ)
+
+    def unheld(self):
+        """What no file holds, as texts."""
+        lines = 0
+        if self.dimension == 2:
+            (lines,), = self.session.all(f"SELECT count(*) FROM abacus_edges({self.sql}, fixed => true)", ["int8"])
+        return [text for count, text in (
+            (self.repeated, f"{self.repeated} points that equal a vertex"), (self.waiting, f"{self.waiting} points that wait to be inserted"),
+            (lines, f"lines, to which {lines} edges belong, and that these are fixed"), (self.srid, f"the SRID {self.srid}")) if count > 0]
+
+    def of_label(self, n, greatest):
+        """Whether the numbers of a label are whole and not beyond this one; and how many simplices have none."""
+        whole, missing = self.session.all(f"SELECT (count(*) FILTER (WHERE labels[{n + 1}] <> trunc(labels[{n + 1}]) OR abs(labels[{n + 1}]) > {greatest}) = 0)"
+                                          f"::int::int8, count(*) FILTER (WHERE labels[{n + 1}] IS NULL) FROM abacus_cells({self.sql})", ["int8"] * 2)[0]
+        return bool(whole), missing
+
+    def will_read(self, points, cells=1):
+        """Says how often a writer reads all points and all cells, where that is not once."""
+        if self.progress:
+            self.progress.total = points * self.vertices + cells * self.simplices
+
+    def chunks(self, query, types):
+        for chunk in self.session.chunks(query, types):
+            if self.progress:
+                self.progress.add(len(chunk), chunk.nbytes)
+            yield chunk
+
     def points(self, source=None, extra=(), order=""):
         """Chunks of (ids, coordinates n x dimension, values n x attributes); a missing value is NaN. `source`, `order`: the vertices joined
         with something, of which `extra` are columns more."""
-        values = [f"coalesce(attributes[{n + 1}], 'NaN')" for n in range(len(self.attributes))] + list(extra)
+        values = values_of("attributes", len(self.attributes)) + list(extra)
         count = len(values)
         query = f"SELECT {', '.join(['id', *self.axes, *values])} FROM {source or self.numbered_vertices()} {order}"
-        for chunk in self.session.chunks(query, ["int8"] + ["float8"] * (self.dimension + count)):
-            columns = [chunk[f"f{n + 1}"].astype("<f8") for n in range(self.dimension + count)]
-            table = numpy.stack(columns, axis=1)
+        for chunk in self.chunks(query, ["int8"] + ["float8"] * (self.dimension + count)):
+            table = table_of(chunk, 1, self.dimension + count, "<f8")
             yield chunk["f0"].astype("<i8"), table[:, : self.dimension], table[:, self.dimension:]
 
     def cells(self):
-        """Chunks of (codes, numbers of the corners n x (dimension + 1), from 0)."""
-        corners = self.dimension + 1
-        query = f"SELECT code, {', '.join(f'n{n}' for n in range(corners))} FROM abacus_numbered_simplices({self.sql})"
-        for chunk in self.session.chunks(query, ["int8"] * (corners + 1)):
-            yield chunk["f0"].astype("<i8"), numpy.stack([chunk[f"f{n + 1}"].astype("<i8") for n in range(corners)], axis=1)
+        """Chunks of (codes, numbers of the corners n x (dimension + 1), from 0, labels n x labels); a missing label is NaN."""
+        labels = values_of("labels", len(self.labels))
+        query = f"SELECT {', '.join(['code', *(f'n{n}' for n in range(self.corners)), *labels])} FROM abacus_numbered_simplices({self.sql})"
+        for chunk in self.chunks(query, ["int8"] * (self.corners + 1) + ["float8"] * len(labels)):
+            yield (chunk["f0"].astype("<i8"), table_of(chunk, 1, self.corners, "<i8"), table_of(chunk, 1 + self.corners, len(labels), "<f8"))
+
+    def marked_facets(self):
+        """Chunks of (numbers of the corners n x dimension, markers)."""
+        if not self.facets:
+            return
+        corners = range(self.dimension)  # places tell vertices of one id apart, ids those at one place
+        numbers = " ".join(f"JOIN numbered AS c{n} ON c{n}.id = v{n} AND "
+                           + " AND ".join(f"c{n}.{axis} = corners[{n + 1}][{k + 1}]" for k, axis in enumerate(self.axes)) for n in corners)
+        query = (f"WITH numbered AS MATERIALIZED (SELECT number, id, {', '.join(self.axes)} FROM {self.numbered_vertices()}) "
+                 f"SELECT marker::int8, {', '.join(f'c{n}.number' for n in corners)} FROM abacus_facets({self.sql}) {numbers}")
+        for chunk in self.session.chunks(query, ["int8"] * (1 + self.dimension)):
+            yield table_of(chunk, 1, self.dimension, "<i8"), chunk["f0"].astype("<i4")
 
     def solid(self, coordinates, values, z):
         """Coordinates with three columns: of a mesh in the plane z is the attribute with that number, or 0."""
@@ -62,3 +121,10 @@ class Mesh:
         if not numpy.isfinite(height).all():
             raise Failed(no_coordinate(self.attributes[z]))
         return numpy.column_stack([coordinates, height])
+
+
+def table_of(chunk, first, count, dtype):
+    """So many fields of a chunk as columns."""
+    if count == 0:
+        return numpy.empty((len(chunk), 0), dtype)
+    return numpy.stack([chunk[f"f{n}"].astype(dtype) for n in range(first, first + count)], axis=1)

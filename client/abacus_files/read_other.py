@@ -1,4 +1,4 @@
-"""Every other format, by meshio: Medit, VTK's old format, Abaqus, Nastran, XDMF and more.
+"""Every other format, by meshio: VTK's old format, Abaqus, Nastran, SU2 and more.
 
 Where a format says how many points and cells a file has, this is compared with what meshio has made of it.
 """
@@ -7,12 +7,12 @@ import re
 
 import numpy
 
-from .grid import Grid
+from . import cell_arrays
+from .grid import OF_HIGHER_ORDER, Grid
 from .psql import Failed
 
 # {suffix: (what says the number of points, what says the number of cells of a kind or of all)}, in text and in VTK's binary files
-COUNTS = {".mesh": (rb"^[ \t]*Vertices\s+(\d+)", {"triangle": rb"^[ \t]*Triangles\s+(\d+)", "tetra": rb"^[ \t]*Tetrahedra\s+(\d+)"}),
-          ".vtk": (rb"^POINTS\s+(\d+)", {None: rb"^CELL_TYPES\s+(\d+)"}),
+COUNTS = {".vtk": (rb"^POINTS\s+(\d+)", {None: rb"^CELL_TYPES\s+(\d+)"}),
           ".vol": (rb"^points\s+(\d+)", {"tetra": rb"^volumeelements\s+(\d+)"}),
           ".msh": (rb"^\(10 \(0 1 ([0-9a-fA-F]+)", {}),  # of ANSYS Fluent
           ".su2": (rb"^[ \t]*NPOIN\s*=\s*(\d+)", {}),
@@ -53,7 +53,18 @@ def read(path):
     blocks = {}
     for block in mesh.cells:
         blocks.setdefault(block.type, []).append(block.data)
-    cells = {kind: numpy.concatenate(parts) if kind in ("triangle", "tetra", "line", "vertex") else numpy.zeros((sum(map(len, parts)), 1), int)
+    cells = {kind: numpy.concatenate(parts) if kind == "vertex" or OF_HIGHER_ORDER.fullmatch(kind) else numpy.zeros((sum(map(len, parts)), 1), int)
              for kind, parts in blocks.items()}
     compare(path, mesh.points, cells)
-    return Grid(mesh.points, cells, data=mesh.point_data, notes=[f"data of cells is left out: {', '.join(mesh.cell_data)}"] if mesh.cell_data else [])
+    grid = Grid(mesh.points, cells, data=mesh.point_data)
+    kinds = [block.type for block in mesh.cells]
+    cell_arrays.take(grid, {name: by_kind(kinds, parts) for name, parts in mesh.cell_data.items()})
+    return grid
+
+
+def by_kind(kinds, parts):
+    """An array of cells, which meshio has block by block, as {kind: values}."""
+    found = {}
+    for kind, part in zip(kinds, parts):
+        found.setdefault(kind, []).append(numpy.asarray(part))
+    return {kind: numpy.concatenate(of) for kind, of in found.items()}

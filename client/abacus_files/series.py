@@ -31,9 +31,10 @@ class Step:
 
     def __init__(self, mesh, series, step):
         self.mesh, self.series, self.step = mesh, series, step
-        self.dimension, self.vertices, self.simplices = mesh.dimension, mesh.vertices, mesh.simplices
+        self.dimension, self.corners, self.labels, self.facets = mesh.dimension, mesh.corners, mesh.labels, mesh.facets
+        self.vertices, self.simplices = mesh.vertices, mesh.simplices
         self.attributes = mesh.attributes + series.names
-        self.cells, self.solid = mesh.cells, mesh.solid
+        self.cells, self.marked_facets, self.solid = mesh.cells, mesh.marked_facets, mesh.solid
 
     def points(self):
         values = ", ".join(f"{value}::float8" for value in self.series.values)

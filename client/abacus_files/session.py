@@ -3,6 +3,7 @@
 Rows come in PostgreSQL's binary COPY format. Where no value is NULL or of variable length all rows have one length, so numpy reads
 thousands at once. psql keeps no row.
 """
+import subprocess
 import sys
 import tempfile
 
@@ -40,10 +41,20 @@ class Session:
         return self
 
     def __exit__(self, kind, value, trace):
+        if kind is None:
+            self.finish()
         psql.end(self.psql)
         if kind is None:
             sys.stderr.write(self.said())
         self.messages.close()
+
+    def finish(self):
+        """Lets psql come to its end by itself: it may not have heard yet that the last statement is done, and would say that it cancels it."""
+        self.psql.stdin.close()
+        try:
+            self.psql.wait(10)
+        except subprocess.TimeoutExpired:
+            pass
 
     def send(self, sql):
         try:

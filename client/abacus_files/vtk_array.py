@@ -6,6 +6,8 @@ import zlib
 import numpy
 
 from .psql import Failed
+from .words import Words
+from .xml_lines import LINE
 
 TYPES = {"Int8": "i1", "UInt8": "u1", "Int16": "i2", "UInt16": "u2", "Int32": "i4", "UInt32": "u4", "Int64": "i8", "UInt64": "u8",
          "Float32": "f4", "Float64": "f8"}
@@ -118,16 +120,19 @@ class Arrays:
     def read(self, element, rows, columns):
         """An array of so many rows; None: as many as there are."""
         name = element.get("Name", "")
+        where = f"line {element.get(LINE)}: the array {name}"
         kind = TYPES.get(element.get("type"))
         if kind is None:
-            raise Failed(f"the array {name} has the unknown type {element.get('type')}")
+            raise Failed(f"{where} has the unknown type {element.get('type')}")
         try:
             if element.get("format", "ascii") == "ascii":
-                values = numpy.array(list(map(float if kind[0] == "f" else int, (element.text or "").split())), dtype=kind)
+                words = Words(element.text or "", comments=False, line=int(element.get(LINE)))
+                count = len(words.words)
+                values = (words.floats if kind[0] == "f" else words.integers)(count, name)
             else:
                 values = numpy.frombuffer(self.bytes(self.source(element)), self.order + kind)
         except (ValueError, OverflowError, zlib.error, EOFError, Failed) as error:
-            raise Failed(f"the array {name} cannot be read: {error}") from error
+            raise Failed(f"{where} cannot be read: {error}") from error
         if rows is not None and len(values) != rows * columns:
-            raise Failed(f"the array {name} has {len(values)} numbers, but should have {rows} times {columns}")
+            raise Failed(f"{where} has {len(values)} numbers, but should have {rows} times {columns}")
         return values.astype(kind).reshape(-1, columns)

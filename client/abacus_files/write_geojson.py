@@ -6,7 +6,8 @@ import json
 import math
 import sys
 
-from .arrays import no_coordinate, unlike
+from .arrays import no_coordinate, unlike, values_of
+from .held import loss
 from .psql import Failed
 
 suffixes = (".geojsonl", ".geojsons", ".geojsonseq")
@@ -17,7 +18,7 @@ class Places:
     """Where the corners of triangles are asked for: SQL of their coordinates, and whether a reader would misplace them."""
 
     def __init__(self, mesh):
-        (self.srid,), = mesh.session.all(f"SELECT abacus_srid({mesh.sql})::int8", ["int8"])
+        self.srid = mesh.srid
         self.postgis = mesh.session.texts("SELECT quote_ident(nspname) FROM pg_extension JOIN pg_namespace n ON n.oid = extnamespace WHERE extname = 'postgis'")
         self.projected = bool(self.postgis) and self.srid not in (0, LONGITUDE_LATITUDE)
         self.outside = False
@@ -32,7 +33,7 @@ class Places:
         of = self.postgis[0]
         corners = ", ".join(f"{of}.ST_Transform({of}.ST_SetSRID({of}.ST_MakePoint(corners[{i + 1}][1], corners[{i + 1}][2]), {self.srid}), "
                             f"{LONGITUDE_LATITUDE}) AS g{i}" for i in range(3))
-        return f"(SELECT code, v0, v1, v2, \"values\", {corners} FROM {cells} OFFSET 0) AS projected"
+        return f"(SELECT code, v0, v1, v2, \"values\", labels, {corners} FROM {cells} OFFSET 0) AS projected"
 
     def seen(self, places):
         self.outside = self.outside or any(abs(x) > 180 or abs(y) > 90 for x, y, *_ in places)
@@ -52,6 +53,11 @@ class Places:
         print(f"abacus-export: {said}", file=sys.stderr)
 
 
+def number(value):
+    """JSON has no infinite numbers."""
+    return value if math.isfinite(value) else None
+
+
 def feature(mesh, names, row, z, projected):
     count = len(mesh.attributes)
     code, ids, rest = row[0], row[1:4], row[4:]
@@ -59,31 +65,41 @@ def feature(mesh, names, row, z, projected):
     if not all(map(math.isfinite, rest[:6])):
         raise Failed(f"triangle {ids} cannot be projected to longitude and latitude")
     projected.seen(places)
-    values = [[v if math.isfinite(v) else None for v in rest[6 + i * count: 6 + (i + 1) * count]] for i in range(3)]
+    values = [[number(v) for v in rest[6 + i * count: 6 + (i + 1) * count]] for i in range(3)]
     if z is not None:
         for place, value in zip(places, values):
             if value[z] is None:
                 raise Failed(no_coordinate(mesh.attributes[z]))
             place.append(value[z])
     properties = {"code": code, **{f"v{i}": v for i, v in enumerate(ids)}}
-    for k, name in enumerate(names):
+    for k, name in enumerate(names[:count]):
         corners = [value[k] for value in values]
-        mean = None if None in corners else sum(corners) / 3
-        properties[name] = mean if mean is not None and math.isfinite(mean) else None  # JSON has no infinite numbers
+        properties[name] = None if None in corners else number(sum(corners) / 3)
+    properties.update(zip(names[count:], map(number, rest[6 + 3 * count:])))
     return {"type": "Feature", "properties": properties, "geometry": {"type": "Polygon", "coordinates": [[*places, places[0]]]}}
 
 
 def write(mesh, file, z):
     if mesh.dimension != 2:
         raise Failed("GeoJSON has polygons only, no tetrahedra: use .vtu or .npz")
+    if mesh.corners != 3:
+        raise Failed("GeoJSON of a quadtree is not written: use .vtu, .ply or .obj")
     places = Places(mesh)
     count = len(mesh.attributes)
     columns = places.columns() + [f"coalesce(\"values\"[{i + 1}][{k + 1}], 'NaN')" for i in range(3) for k in range(count)]
+    columns += values_of("labels", len(mesh.labels))
     query = f"SELECT code, v0, v1, v2, {', '.join(columns)} FROM {places.source(f'abacus_cells({mesh.sql})')}"
     types = ["int8"] * 4 + ["float8"] * len(columns)
     fields = [f"f{n}" for n in range(len(types))]
-    names = unlike(mesh.attributes, ("code", "v0", "v1", "v2"))
-    for chunk in mesh.session.chunks(query, types):
+    names = unlike(mesh.attributes + mesh.labels, ("code", "v0", "v1", "v2"))
+    for chunk in mesh.chunks(query, types):
         rows = zip(*(chunk[name].tolist() for name in fields))
         file.write("".join(json.dumps(feature(mesh, names, row, z, places), allow_nan=False) + "\n" for row in rows).encode())
     places.say()
+
+
+def lost(mesh, z):
+    if mesh.dimension != 2:
+        return []
+    attributes = f"attributes of points ({', '.join(mesh.attributes)}), of which a triangle has the means" if mesh.attributes else True
+    return loss(mesh, attributes=attributes, markers=False)

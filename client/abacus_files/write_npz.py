@@ -1,4 +1,5 @@
-"""An archive of numpy arrays: `points` and `simplices` as scipy.spatial.Delaunay has them, `ids`, `values`, `codes`, `attributes`.
+"""An archive of numpy arrays: `points` and `simplices` as scipy.spatial.Delaunay has them, `ids`, `values`, `codes`, `labels`, `facets` and their
+`markers`, and the names in `attributes` and `label_names`.
 
 The members stand one after the other in the archive, but come from the same rows. So one pass over the rows writes the first of them, and keeps
 the others in files beside the archive until it is their turn: no row is asked for twice, and none takes memory.
@@ -11,6 +12,7 @@ import zipfile
 
 import numpy
 
+from .held import loss
 from .psql import Failed
 
 suffixes = (".npz",)
@@ -38,16 +40,28 @@ def members(archive, folder, arrays, chunks):
                 shutil.copyfileobj(file, out, 1 << 20)
 
 
+def write_names(archive, member_name, names):
+    array = numpy.array(names, dtype=str)
+    with member(archive, member_name, array.dtype, array.shape) as out:
+        out.write(array.tobytes())
+
+
 def write(mesh, file, z):
     if z is not None:
         raise Failed("arrays have all attributes, as values: --z is for other formats")
-    n, m, count = mesh.vertices, mesh.simplices, len(mesh.attributes)
+    n, m, count, labels = mesh.vertices, mesh.simplices, len(mesh.attributes), len(mesh.labels)
     folder = os.path.dirname(os.path.abspath(file.name))
     with zipfile.ZipFile(file, "w", zipfile.ZIP_STORED) as archive:
         vertices = [("points", "<f8", (n, mesh.dimension)), ("ids", "<i8", (n,)), ("values", "<f8", (n, count))]
         members(archive, folder, vertices if count else vertices[:2], ((points, ids, values) for ids, points, values in mesh.points()))
-        members(archive, folder, [("simplices", "<i8", (m, mesh.dimension + 1)), ("codes", "<i8", (m,))],
-                ((corners, codes) for codes, corners in mesh.cells()))
-        names = numpy.array(mesh.attributes, dtype=str)
-        with member(archive, "attributes", names.dtype, names.shape) as out:
-            out.write(names.tobytes())
+        cells = [("simplices", "<i8", (m, mesh.corners)), ("codes", "<i8", (m,)), ("labels", "<f8", (m, labels))]
+        members(archive, folder, cells if labels else cells[:2], ((corners, codes, values) for codes, corners, values in mesh.cells()))
+        if mesh.facets:
+            members(archive, folder, [("facets", "<i8", (mesh.facets, mesh.dimension)), ("markers", "<i4", (mesh.facets,))], mesh.marked_facets())
+        write_names(archive, "attributes", mesh.attributes)
+        if labels:
+            write_names(archive, "label_names", mesh.labels)
+
+
+def lost(mesh, z):
+    return loss(mesh)

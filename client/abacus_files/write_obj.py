@@ -1,4 +1,5 @@
-"""Wavefront OBJ: triangles as text."""
+"""Wavefront OBJ: triangles, or the quadrangles of a quadtree, as text."""
+from .held import loss
 from .psql import Failed
 
 suffixes = (".obj",)
@@ -9,5 +10,10 @@ def write(mesh, file, z):
         raise Failed("OBJ has faces only, no tetrahedra: use .vtu or .npz")
     for _, coordinates, values in mesh.points():
         file.write("".join(f"v {x!r} {y!r} {h!r}\n" for x, y, h in mesh.solid(coordinates, values, z).tolist()).encode())
-    for _, corners in mesh.cells():
-        file.write("".join(f"f {a} {b} {c}\n" for a, b, c in (corners + 1).tolist()).encode())
+    for _, corners, _ in mesh.cells():
+        file.write("".join(f"f {' '.join(map(str, row))}\n" for row in (corners + 1).tolist()).encode())
+
+
+def lost(mesh, z):
+    others = [name for n, name in enumerate(mesh.attributes) if n != z]
+    return loss(mesh, ids=False, attributes=f"attributes of points ({', '.join(others)})" if others else True, labels=False, markers=False)

@@ -3,6 +3,7 @@ import os
 import pathlib
 
 from . import write_vtu
+from .held import loss
 from .series import Series, Step
 
 suffixes = (".pvd",)
@@ -14,6 +15,7 @@ def write(mesh, file, z, query):
     stem = pathlib.Path(file.name.removesuffix(".part")).with_suffix("")
     digits = max(4, len(str(len(series.steps))))
     done, lines = [], []
+    mesh.will_read(len(series.steps), len(series.steps))
     try:
         for n, step in enumerate(series.steps):
             path = f"{stem}_{n:0{digits}}.vtu"
@@ -30,3 +32,7 @@ def write(mesh, file, z, query):
                 os.remove(path)
     file.write(f'<?xml version="1.0"?>\n<VTKFile type="Collection" version="0.1" byte_order="LittleEndian">\n<Collection>\n'
                f'{"".join(lines)}</Collection>\n</VTKFile>\n'.encode())
+
+
+def lost(mesh, z):
+    return loss(mesh)

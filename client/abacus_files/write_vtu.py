@@ -7,9 +7,11 @@ from xml.sax.saxutils import quoteattr
 import numpy
 
 from .arrays import unlike
+from .held import loss
 
 suffixes = (".vtu",)
-CELL_TYPE = {2: 5, 3: 10}  # VTK_TRIANGLE, VTK_TETRA
+# {(dimension, corners): VTK's type}: line, triangle, quad, tetra, hexahedron
+TYPES = {(1, 2): 3, (2, 3): 5, (2, 4): 9, (3, 4): 10, (3, 8): 12}
 
 
 class Appended:
@@ -20,12 +22,16 @@ class Appended:
         self.at = {}
         self.lines = {}
 
-    def add(self, name, kind, dtype, components, count):
+    def add(self, group, name, kind, dtype, components, count):
         several = f' NumberOfComponents="{components}"' if components > 1 else ""
-        self.lines[name] = f'<DataArray type="{kind}" Name={quoteattr(name)}{several} format="appended" offset="{self.size}"/>'
+        self.lines.setdefault(group, []).append(
+            f'<DataArray type="{kind}" Name={quoteattr(name)}{several} format="appended" offset="{self.size}"/>')
         bytes_ = numpy.dtype(dtype).itemsize * components * count
-        self.at[name] = [self.size, bytes_, numpy.dtype(dtype)]
+        self.at[group, name] = [self.size, bytes_, numpy.dtype(dtype)]
         self.size += 8 + bytes_
+
+    def text(self, group):
+        return f"<{group}>{''.join(self.lines.get(group, []))}</{group}>\n"
 
     def open(self, file):
         self.file = file
@@ -36,45 +42,75 @@ class Appended:
         for place in self.at.values():
             place[0] += self.start + 8
 
-    def put(self, name, values):
-        at, _, dtype = self.at[name]
+    def put(self, group, name, values):
+        at, _, dtype = self.at[group, name]
         data = numpy.ascontiguousarray(values, dtype).tobytes()
         self.file.seek(at)
         self.file.write(data)
-        self.at[name][0] += len(data)
+        self.at[group, name][0] += len(data)
+
+
+class Cells:
+    """The cells of the file: simplices, and behind them the facets that have markers."""
+
+    def __init__(self, mesh, data):
+        self.mesh, self.data, self.ends = mesh, data, 0
+        self.code, self.marker = unlike(["code", "marker"], mesh.labels)
+        count = mesh.simplices + mesh.facets
+        for name in mesh.labels:
+            data.add("CellData", name, "Float64", "<f8", 1, count)
+        data.add("CellData", self.code, "Int64", "<i8", 1, count)
+        if mesh.facets:
+            data.add("CellData", self.marker, "Int32", "<i4", 1, count)
+        data.add("Cells", "connectivity", "Int64", "<i8", 1, mesh.simplices * mesh.corners + mesh.facets * mesh.dimension)
+        data.add("Cells", "offsets", "Int64", "<i8", 1, count)
+        data.add("Cells", "types", "UInt8", "u1", 1, count)
+
+    def put(self, corners, dimension, codes, labels, markers):
+        count, width = corners.shape
+        put = self.data.put
+        for k, name in enumerate(self.mesh.labels):
+            put("CellData", name, labels[:, k])
+        put("CellData", self.code, codes)
+        if self.mesh.facets:
+            put("CellData", self.marker, markers)
+        put("Cells", "connectivity", corners)
+        put("Cells", "offsets", numpy.arange(1, count + 1) * width + self.ends)
+        put("Cells", "types", numpy.full(count, TYPES[dimension, width]))
+        self.ends += count * width
+
+    def write(self):
+        mesh = self.mesh
+        for codes, corners, labels in mesh.cells():
+            self.put(corners, mesh.dimension, codes, labels, numpy.zeros(len(codes)))
+        for corners, markers in mesh.marked_facets():
+            count = len(markers)
+            self.put(corners, mesh.dimension - 1, numpy.full(count, -1), numpy.full((count, len(mesh.labels)), numpy.nan), markers)
 
 
 def write(mesh, file, z):
-    n, m, corners = mesh.vertices, mesh.simplices, mesh.dimension + 1
-    names = unlike(mesh.attributes, ("id", "code", "points", "connectivity", "offsets", "types"))
+    n, m = mesh.vertices, mesh.simplices + mesh.facets
+    names = unlike(mesh.attributes, ("id",))
     data = Appended()
     for name in names:
-        data.add(name, "Float64", "<f8", 1, n)
-    data.add("id", "Int64", "<i8", 1, n)
-    data.add("code", "Int64", "<i8", 1, m)
-    data.add("points", "Float64", "<f8", 3, n)
-    data.add("connectivity", "Int64", "<i8", 1, m * corners)
-    data.add("offsets", "Int64", "<i8", 1, m)
-    data.add("types", "UInt8", "u1", 1, m)
-    lines = data.lines
-    point_data = "".join(lines[name] for name in (*names, "id"))
+        data.add("PointData", name, "Float64", "<f8", 1, n)
+    data.add("PointData", "id", "Int64", "<i8", 1, n)
+    data.add("Points", "points", "Float64", "<f8", 3, n)
+    cells = Cells(mesh, data)
     file.write(f'<?xml version="1.0"?>\n<VTKFile type="UnstructuredGrid" version="1.0" byte_order="LittleEndian" header_type="UInt64">\n'
                f'<UnstructuredGrid><Piece NumberOfPoints="{n}" NumberOfCells="{m}">\n'
-               f'<PointData>{point_data}</PointData>\n<CellData>{lines["code"]}</CellData>\n<Points>{lines["points"]}</Points>\n'
-               f'<Cells>{lines["connectivity"]}{lines["offsets"]}{lines["types"]}</Cells>\n'
+               f'{"".join(map(data.text, ("PointData", "CellData", "Points", "Cells")))}'
                f'</Piece></UnstructuredGrid>\n<AppendedData encoding="raw">\n_'.encode())
     data.open(file)
     for ids, coordinates, values in mesh.points():
-        data.put("points", mesh.solid(coordinates, values, z))
-        data.put("id", ids)
+        data.put("Points", "points", mesh.solid(coordinates, values, z))
+        data.put("PointData", "id", ids)
         for k, name in enumerate(names):
-            data.put(name, values[:, k])
-    done = 0
-    for codes, numbers in mesh.cells():
-        data.put("connectivity", numbers)
-        data.put("code", codes)
-        data.put("offsets", (numpy.arange(len(codes)) + done + 1) * corners)
-        data.put("types", numpy.full(len(codes), CELL_TYPE[mesh.dimension]))
-        done += len(codes)
+            data.put("PointData", name, values[:, k])
+    cells.write()
     file.seek(data.start + data.size)
     file.write(b"\n</AppendedData>\n</VTKFile>\n")
+
+
+def lost(mesh, z):
+    return loss(mesh)

@@ -27,6 +27,10 @@ ABACUS_API abacus_status abacus_numbered_next_vertex(abacus_numbered *numbered,
 ABACUS_API abacus_status abacus_numbered_next_simplex(abacus_numbered *numbered,
 													  abacus_simplex *simplex, uint64_t *numbers,
 													  abacus_error *error);
+/* The labels of the simplex that came last, as many as the header names; valid until the next call. */
+ABACUS_API abacus_status abacus_numbered_labels(abacus_numbered *numbered,
+												const abacus_simplex *simplex,
+												const double **labels, abacus_error *error);
 ABACUS_API void abacus_numbered_close(abacus_numbered *numbered);
 
 #ifdef __cplusplus

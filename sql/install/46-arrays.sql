@@ -20,9 +20,10 @@ CREATE FUNCTION abacus_numbered_simplices(
     OUT n0 bigint,
     OUT n1 bigint,
     OUT n2 bigint,
-    OUT n3 bigint)
+    OUT n3 bigint,
+    OUT labels double precision[])
 RETURNS SETOF record
 AS 'MODULE_PATHNAME', 'abacus_sql_numbered_simplices'
 LANGUAGE C STABLE STRICT PARALLEL SAFE COST 10000 ROWS 1000 SUPPORT abacus_simplices_rows;
 COMMENT ON FUNCTION abacus_numbered_simplices(regclass) IS
-    'the simplices of a mesh, by the numbers of abacus_numbered_vertices. Their orientation is positive. Errors: 42809 not a mesh, 53400 no room for temporary files';
+    'the simplices of a mesh, by the numbers of abacus_numbered_vertices, and their labels. Their orientation is positive. Shapes: labels in the order of abacus_labels, NULL in a mesh without any. Errors: 42809 not a mesh, 53400 no room for temporary files';

@@ -108,6 +108,17 @@ add_attributes(Definition *definition, const Publishing *publication)
 				   psprintf("attribute %u", attribute_number(publication, i)), "");
 }
 
+/* Labels are never dropped, so their positions are permanent. */
+static void
+add_labels(Definition *definition, const Publishing *publication)
+{
+	const abacus_columns *columns = &publication->names.facts->columns;
+
+	for (uint32 i = 0; i < columns->labels; i++)
+		add_column(definition, publication->names.of[columns->attributes + i], "pg_catalog.float8",
+				   psprintf("label %u", i + 1), "");
+}
+
 /* Adds the column with all attributes of the corners. */
 static void
 add_values(Definition *definition, const Publishing *publication)
@@ -153,6 +164,8 @@ add_columns(Definition *definition, const Publishing *publication, Content conte
 		add_named_columns(definition, axes, dimension, "pg_catalog.float8");
 	}
 	add_attributes(definition, publication);
+	if (content == CONTENT_CELLS)
+		add_labels(definition, publication);
 	add_geometry(definition, publication, content);
 }
 

@@ -26,6 +26,7 @@ struct MeshRows
 	const Published *published;
 	const Bitmapset *wanted;	/* columns, from 0; others are NULL */
 	bool		wants_values;	/* of the corners of cells */
+	bool		wants_labels;	/* of cells */
 	MemoryContext memory;
 	Reader	   *reader;
 	abacus_cells *cells;		/* one of the two, once begun */
@@ -45,6 +46,7 @@ typedef struct MeshRow
 	uint32		attributes;
 	abacus_vertex vertex;
 	abacus_simplex simplex;
+	const double *labels;
 	double		values[(ABACUS_MAX_DIMENSION + 1) * ABACUS_MAX_ATTRIBUTES];
 } MeshRow;
 
@@ -77,6 +79,8 @@ check_column(const MeshRows *rows, Relation table, int at)
 		has = column->number <= facts->form.dimension;
 	else if (column->holds == HOLDS_COORDINATE)
 		has = column->number < facts->form.dimension;
+	else if (column->holds == HOLDS_LABEL)
+		has = column->number < facts->columns.labels;
 	if (!has)
 		ereport(ERROR,
 				(errcode(ERRCODE_FDW_COLUMN_NAME_NOT_FOUND),
@@ -140,6 +144,7 @@ prepare_columns(MeshRows *rows, Relation table)
 		}
 		rows->wants_values |= column->holds == HOLDS_VALUES || column->holds == HOLDS_ATTRIBUTE ||
 			(column->holds == HOLDS_GEOMETRY && column->number >= 0);
+		rows->wants_labels |= column->holds == HOLDS_LABEL;
 	}
 }
 
@@ -302,6 +307,9 @@ column_value(const MeshRows *rows, MeshRow *row, int at, bool *isnull)
 			value = attribute(rows, row, rows->positions[at]);
 			*isnull = isnan(value) != 0;
 			return Float8GetDatum(value);
+		case HOLDS_LABEL:
+			*isnull = isnan(row->labels[column->number]) != 0;
+			return Float8GetDatum(row->labels[column->number]);
 		case HOLDS_GEOMETRY:
 			return geometry(rows, row, rows->makers[at], rows->positions[at]);
 		case HOLDS_NOTHING:
@@ -325,6 +333,8 @@ fetch(MeshRows *rows, MeshRow *row)
 		status = host_run(host, abacus_faces_next_vertex, rows->points, &row->vertex);
 	else
 		return false;
+	if (rows->wants_labels && status != ABACUS_END)
+		host_run(host, abacus_cells_labels, rows->cells, &row->simplex, &row->labels);
 	host_release(host);
 	return status != ABACUS_END;
 }

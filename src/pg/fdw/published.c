@@ -89,7 +89,11 @@ published_holds(const char *word, Column *column)
 		{"z", {HOLDS_COORDINATE, 2}},
 		{"geometry", {HOLDS_GEOMETRY, -1}},
 	};
-	const char *attribute = "attribute ";
+	static const struct
+	{
+		const char *word;
+		Holds		holds;
+	}			numbered[] = {{"attribute ", HOLDS_ATTRIBUTE}, {"label ", HOLDS_LABEL}};
 
 	for (int i = 0; i < lengthof(words); i++)
 		if (strcmp(word, words[i].word) == 0)
@@ -97,11 +101,14 @@ published_holds(const char *word, Column *column)
 			*column = words[i].column;
 			return true;
 		}
-	if (strncmp(word, attribute, strlen(attribute)) != 0)
-		return false;
-	column->holds = HOLDS_ATTRIBUTE;
-	column->number = published_number(word + strlen(attribute));
-	return column->number >= 0;
+	for (int i = 0; i < lengthof(numbered); i++)
+		if (strncmp(word, numbered[i].word, strlen(numbered[i].word)) == 0)
+		{
+			column->holds = numbered[i].holds;
+			column->number = published_number(word + strlen(numbered[i].word));
+			return column->number >= 0;
+		}
+	return false;
 }
 
 static const char *
@@ -134,6 +141,7 @@ type_of(const Column *column)
 			return FLOAT8ARRAYOID;
 		case HOLDS_COORDINATE:
 		case HOLDS_ATTRIBUTE:
+		case HOLDS_LABEL:
 			return FLOAT8OID;
 		default:
 			return postgis_geometry();
@@ -150,6 +158,7 @@ belongs(const Column *column, Content content)
 		case HOLDS_CORNER:
 		case HOLDS_CORNERS:
 		case HOLDS_VALUES:
+		case HOLDS_LABEL:
 			return content == CONTENT_CELLS;
 		case HOLDS_ID:
 		case HOLDS_COORDINATE:

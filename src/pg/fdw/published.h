@@ -38,6 +38,7 @@ typedef enum Holds
 	HOLDS_ID,
 	HOLDS_COORDINATE,			/* of a point: on axis `number` */
 	HOLDS_ATTRIBUTE,			/* by its permanent `number`: a point's value, a cell's mean */
+	HOLDS_LABEL,				/* of a cell: its label `number` */
 	HOLDS_GEOMETRY				/* with attribute `number` as Z, unless that is negative */
 } Holds;
 

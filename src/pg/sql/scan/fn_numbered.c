@@ -26,12 +26,13 @@ enum
 	VERTEX_COLUMNS
 };
 
-/* Columns of abacus_numbered_simplices: the code, and the numbers of the corners */
+/* Columns of abacus_numbered_simplices: the code, the numbers of the corners, and the labels */
 enum
 {
 	SIMPLEX_CODE,
 	SIMPLEX_NUMBERS,
-	SIMPLEX_COLUMNS = SIMPLEX_NUMBERS + ABACUS_MAX_DIMENSION + 1
+	SIMPLEX_LABELS = SIMPLEX_NUMBERS + ABACUS_MAX_DIMENSION + 1,
+	SIMPLEX_COLUMNS
 };
 
 /*
@@ -103,7 +104,7 @@ abacus_sql_numbered_vertices(PG_FUNCTION_ARGS)
 
 static void
 put_simplex(ReturnSetInfo *set, const abacus_simplex *simplex, const uint64 *numbers,
-			uint32 dimension)
+			const double *labels, const abacus_facts *facts)
 {
 	Datum		values[SIMPLEX_COLUMNS] = {0};
 	bool		isnull[SIMPLEX_COLUMNS] = {false};
@@ -111,13 +112,18 @@ put_simplex(ReturnSetInfo *set, const abacus_simplex *simplex, const uint64 *num
 	values[SIMPLEX_CODE] = Int64GetDatum((int64) simplex->code);
 	for (uint32 i = 0; i <= ABACUS_MAX_DIMENSION; i++)
 	{
-		isnull[SIMPLEX_NUMBERS + i] = i > dimension;
+		isnull[SIMPLEX_NUMBERS + i] = i > facts->form.dimension;
 		values[SIMPLEX_NUMBERS + i] = Int64GetDatum((int64) numbers[i]);
 	}
+	isnull[SIMPLEX_LABELS] = labels == NULL;
+	if (labels != NULL)
+		values[SIMPLEX_LABELS] = attribute_array(labels, (int) facts->columns.labels);
 	tuplestore_putvalues(set->setResult, set->setDesc, values, isnull);
+	if (labels != NULL)
+		pfree(DatumGetPointer(values[SIMPLEX_LABELS]));
 }
 
-/* abacus_numbered_simplices(mesh regclass) -> code, n0, n1, n2, n3 */
+/* abacus_numbered_simplices(mesh regclass) -> code, n0, n1, n2, n3, labels */
 Datum
 abacus_sql_numbered_simplices(PG_FUNCTION_ARGS)
 {
@@ -125,11 +131,16 @@ abacus_sql_numbered_simplices(PG_FUNCTION_ARGS)
 	Host	   *host = reader->host;
 	abacus_simplex simplex;
 	uint64		numbers[ABACUS_MAX_DIMENSION + 1] = {0};
+	const abacus_facts *facts = &reader->header.facts;
+	const double *labels = NULL;
 
 	while (host_run(host, abacus_numbered_next_simplex, host->handle, &simplex, numbers) !=
 		   ABACUS_END)
-		put_simplex((ReturnSetInfo *) fcinfo->resultinfo, &simplex, numbers,
-					reader->header.facts.form.dimension);
+	{
+		if (facts->columns.labels > 0)
+			host_run(host, abacus_numbered_labels, host->handle, &simplex, &labels);
+		put_simplex((ReturnSetInfo *) fcinfo->resultinfo, &simplex, numbers, labels, facts);
+	}
 	done(reader);
 	PG_RETURN_NULL();
 }
