@@ -43,7 +43,7 @@ public:
     /// Whether the current face, an edge in the plane, is fixed.
     bool is_fixed() const requires(D == 2) {
         const unsigned face = face_ - 1; // advance() stands behind it
-        return page().fixed(simplex_) >> std::countr_one(face) & 1;
+        return page().fixed(simplex_).is_fixed(std::countr_one(face));
     }
     /// Pages of the window, without those that the search for owners of faces reads.
     std::uint64_t pages_read() const { return pages_.pages_read(); }
