@@ -16,8 +16,10 @@ await build({
     outdir: folder("dist"),
     alias: { "maplibre-gl": "./maplibre-gl.mjs" },
     external: ["./maplibre-gl.mjs"], // it loads a worker beside it
+    loader: { ".svg": "text" },
     logLevel: "warning",
 });
 for (const name of ["maplibre-gl.mjs", "maplibre-gl-shared.mjs", "maplibre-gl-worker.mjs", "maplibre-gl.css"])
     copyFileSync(maplibre + name, folder(`dist/${name}`));
+copyFileSync(folder("node_modules/uplot/dist/uPlot.min.css"), folder("dist/uplot.css"));
 for (const name of ["index.html", "style.css"]) copyFileSync(folder(`page/${name}`), folder(`dist/${name}`));

@@ -58,8 +58,12 @@ export const plane = {
     sight: `
         SELECT visible, x, y, z FROM abacus_visible($1::oid::regclass, ARRAY[$2, $3]::float8[], ARRAY[$4, $5]::float8[],
             attribute => $6::text, observer_height => $7::float8, target_height => $8::float8)`,
+    hull: `
+        SELECT ring, x, y, CASE WHEN $2::text IS NOT NULL THEN abacus_interpolate($1::oid::regclass, x, y, $2::text) END AS value
+        FROM abacus_hull($1::oid::regclass) ORDER BY ring, position LIMIT $3`,
+    lines: `SELECT line, part, kind, x, y FROM abacus_lines($1::oid::regclass) ORDER BY line, position LIMIT $2`,
     picture: `SELECT abacus_tile_picture($1::oid::regclass, $2, $3, $4, $5, $6::float8[], attribute => $7, range => $8::float8[],
-        ramp => $9, contours => $10, exaggeration => $11, edges => $12) AS tile`,
+        ramp => $9, contours => $10, exaggeration => $11, edges => $12, size => $13) AS tile`,
     vector: "SELECT abacus_tile_vector($1::oid::regclass, $2, $3, $4, $5, $6::float8[], attribute => $7, contours => $8) AS tile",
     terrain: "SELECT abacus_tile_terrain($1::oid::regclass, $2, $3, $4, $5, $6::float8[], attribute => $7, fill => $8) AS tile",
 };

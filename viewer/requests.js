@@ -5,6 +5,7 @@ import { Refused } from "./errors.js";
 
 const mostRows = 200_000, mostPathPlaces = 1000;
 const mostOfHull = 60_000;
+const noData = -32768; // what a tile of heights has where there is no mesh, if it is asked to say so
 
 const wrong = (message) => new Refused(400, message);
 
@@ -35,6 +36,8 @@ async function bounded(query, values) {
     return rows;
 }
 
+const atMost = (rows) => (rows.length > mostOfHull ? null : rows);
+
 /** A place, its simplex with corners and neighbours, and what the mesh says of values there. */
 async function locate(query, mesh, sql, at, attribute) {
     const count = at.length + 1;
@@ -63,6 +66,10 @@ export const planeReads = {
         if (path.length % 2) throw wrong("path must have an x and a y for each place");
         return bounded(query, { text: plane.profile, values: [path, attributeOf(p, mesh)] });
     },
+    /** The rings of the border with the attribute; null if they have very many places. */
+    hull: async (p, query, mesh) => atMost(await query(plane.hull, [attributeOf(p, mesh), mostOfHull + 1])),
+    /** The lines that are fixed edges of the mesh, as they were given. */
+    lines: (p, query) => bounded(query, { text: plane.lines, values: [] }),
     sight: async (p, query, mesh) =>
         (await query(plane.sight, [...p.numbers("from", 2, 2), ...p.numbers("to", 2, 2), attributeOf(p, mesh),
             p.number("observer", 0), p.number("target", 0)]))[0],
@@ -76,10 +83,7 @@ export const spaceReads = {
     isosurface: (p, query, mesh) => bounded(query, { text: space.isosurface, values: [p.number("value"), attributeOf(p, mesh)] }),
     ray: (p, query) => bounded(query, { text: space.ray, values: [p.numbers("origin", 3, 3), p.numbers("direction", 3, 3)] }),
     /** null if it has so many triangles that their lines would hide all behind them. */
-    hull: async (p, query) => {
-        const rows = await query(space.hull, [mostOfHull + 1]);
-        return rows.length > mostOfHull ? null : rows;
-    },
+    hull: async (p, query) => atMost(await query(space.hull, [mostOfHull + 1])),
 };
 
 /** A tile: its statement and parameters. */
@@ -92,12 +96,12 @@ export function tile(kind, z, x, y, p, mesh) {
     const values = [...place, mesh.srid, mesh.world, attribute];
     const found = mesh.attributes.find((one) => one.name === attribute);
     const contours = attribute === null ? null : p.number("contours", 0) || null;
-    if (kind === "terrain") return { text: plane.terrain, values: [...values, found?.least ?? 0] };
+    if (kind === "terrain") return { text: plane.terrain, values: [...values, p.text("outside") === "none" ? noData : found?.least ?? 0] };
     if (kind === "vector") return { text: plane.vector, values: [...values, contours] };
-    const low = found?.least ?? null, high = found?.greatest ?? null;
+    const low = p.number("low", found?.least ?? null), high = p.number("high", found?.greatest ?? null);
     const range = low === null ? null : [low, high > low ? high : low + 1];
     return { text: plane.picture, values: [...values, range, attribute === null ? null : p.text("ramp"), contours,
-        attribute === null ? 0 : p.number("exaggeration", 0), p.text("edges") !== "no"] };
+        attribute === null ? 0 : p.number("exaggeration", 0), p.text("edges") !== "no", p.number("size", 256)] };
 }
 
 // ---- Changes ------------------------------------------------------------------------------------

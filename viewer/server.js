@@ -16,6 +16,8 @@ const usage = `usage: viewer/serve --mesh NAME [-d CONNINFO] [options]
   -d, --dbname TEXT  a database or connection string, as for psql; default: PGHOST and so on
   --srid N           SRID of the coordinates: 4326 (longitude and latitude) or 3857 (Web Mercator);
                      default: that of the mesh. With another SRID or none it has a map of its own
+  --base-map URL     a map below the mesh, of tiles at this address with {z}, {x} and {y}
+  --credit TEXT      whose map that is, as its makers want it to be said
   --edit             allow points to be added, moved and deleted
   --timeout SECONDS  longest time for a statement (30)
   --idle SECONDS     undo unsaved changes when nobody uses their page for this long (600)
@@ -24,13 +26,14 @@ const usage = `usage: viewer/serve --mesh NAME [-d CONNINFO] [options]
 `;
 
 const types = { html: "text/html; charset=utf-8", css: "text/css; charset=utf-8", js: "text/javascript", mjs: "text/javascript" };
-const headers = {
+/** Headers of all answers. Of other servers the page may ask the one with the base map alone. */
+const headersFor = (baseMap) => ({
     "Content-Security-Policy": "default-src 'none'; script-src 'self'; worker-src 'self' blob:; style-src 'self'; " +
-        "img-src 'self' blob: data:; connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'",
+        `img-src 'self' blob: data:; connect-src ${["'self'", ...(baseMap ? [new URL(baseMap).origin] : [])].join(" ")}; base-uri 'none'; form-action 'none'; frame-ancestors 'none'`,
     "X-Content-Type-Options": "nosniff",
     "Referrer-Policy": "no-referrer",
     "Cross-Origin-Resource-Policy": "same-origin",
-};
+});
 const mostBody = 100_000;
 const mapped = [3857, 4326]; // what tiles are of
 
@@ -65,7 +68,8 @@ class Mesh {
         const lower = extent.slice(0, this.dimension), upper = extent.slice(3, 3 + this.dimension);
         const map = this.map ?? this.place(own, lower, upper);
         if (lower[0] !== null) this.map = map; // a mesh without a simplex has no place yet
-        this.known = { etag, name, dimension: this.dimension, ...stats, attributes, lower, upper, ...map,
+        this.known = { etag, name, dimension: this.dimension, ...stats, attributes, lower, upper, ...map, system: own,
+            ...(map.srid && this.options.baseMap && { baseMap: this.options.baseMap, credit: this.options.credit }),
             edit: Boolean(this.options.edit && stats.changeable) };
         return this.known;
     }
@@ -103,7 +107,7 @@ function address(request) {
 }
 
 function send(response, status, type, content, more = {}) {
-    response.writeHead(status, { ...headers, "Content-Type": type, "Cache-Control": "no-cache", ...more });
+    response.writeHead(status, { "Content-Type": type, "Cache-Control": "no-cache", ...more });
     response.end(content);
 }
 const json = (response, value, status = 200) => send(response, status, "application/json", JSON.stringify(value));
@@ -158,7 +162,9 @@ async function sendFile(response, url, mesh) {
 }
 
 function handler(mesh, hosts) {
+    const headers = Object.entries(headersFor(mesh.options.baseMap));
     return async (request, response) => {
+        for (const [name, value] of headers) response.setHeader(name, value);
         const gone = new AbortController();
         response.on("close", () => { if (!response.writableEnded) gone.abort(); });
         try {
@@ -202,7 +208,7 @@ export async function start(options) {
 function commandLine() {
     const { values } = parseArgs({ options: {
         mesh: { type: "string" }, dbname: { type: "string", short: "d" }, srid: { type: "string", default: "0" },
-        edit: { type: "boolean", default: false }, timeout: { type: "string", default: "30" },
+        edit: { type: "boolean", default: false }, "base-map": { type: "string" }, credit: { type: "string" }, timeout: { type: "string", default: "30" },
         idle: { type: "string", default: "600" }, port: { type: "string", default: "8080" }, host: { type: "string", default: "127.0.0.1" }, help: { type: "boolean" } } });
     const number = (name, least, most) => {
         const value = Number(values[name]);
@@ -213,7 +219,10 @@ function commandLine() {
     if (!values.mesh) throw new Error("--mesh is missing");
     const srid = number("srid", 0, 99999);
     if (srid && !mapped.includes(srid)) throw new Error("--srid must be 4326 or 3857; without it the viewer uses the SRID of the mesh, or a map of its own");
-    return { ...values, srid, timeout: number("timeout", 1, 86400), idle: number("idle", 10, 86400), port: number("port", 0, 65535) };
+    const baseMap = values["base-map"];
+    if (baseMap !== undefined && !(/^https?:\/\/[\w.:[\]-]+\//.test(baseMap) && ["{z}", "{x}", "{y}"].every((part) => baseMap.includes(part))))
+        throw new Error("--base-map must be an address of http or https with {z}, {x} and {y}, for example https://maps.example/{z}/{x}/{y}.png");
+    return { ...values, baseMap, srid, timeout: number("timeout", 1, 86400), idle: number("idle", 10, 86400), port: number("port", 0, 65535) };
 }
 
 if (process.argv[1] === new URL(import.meta.url).pathname) {

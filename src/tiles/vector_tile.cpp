@@ -17,7 +17,7 @@ namespace abacus {
 namespace {
 
 // Squares of samples along a side of a tile, with one more on each side.
-constexpr std::uint32_t squares = 64;
+constexpr std::uint32_t squares = 128;
 // The most segments of contours: if there are more, the interval is doubled.
 constexpr double most_segments = 30000;
 

@@ -1,11 +1,12 @@
 // The server of the viewer: answers equal those of SQL; bad input, missing rights, other names, clients that go away,
 // and undone changes.
 import assert from "node:assert/strict";
-import { spawnSync } from "node:child_process";
+import { execFile, spawnSync } from "node:child_process";
 import { readFileSync } from "node:fs";
 import http from "node:http";
 import net from "node:net";
 import { after, before, test } from "node:test";
+import { promisify } from "node:util";
 import { connection } from "../../viewer/conninfo.js";
 import { Database } from "../../viewer/database.js";
 import { connect, eventually, makeMeshes, psql, serve } from "./support.js";
@@ -143,6 +144,38 @@ test("it reads only, and says which pages may do what", async () => {
     } finally {
         await database.end();
     }
+});
+
+test("a base map widens the policy by its server alone, and is named only where the mesh lies on the earth", async () => {
+    const baseMap = "https://maps.example:8443/tiles/{z}/{x}/{y}.png?key=1";
+    for (const srid of [4326, 0]) {
+        const server = await serve("globe", { srid, baseMap, credit: "Example" });
+        try {
+            assert.match((await fetch(server.origin)).headers.get("content-security-policy"), /connect-src 'self' https:\/\/maps\.example:8443; base-uri/);
+            const { body } = await server.get("/api/info");
+            assert.deepEqual([body.baseMap, body.credit], srid ? [baseMap, "Example"] : [undefined, undefined]);
+        } finally {
+            await server.stop();
+        }
+    }
+    for (const address of ["javascript:alert(1)", "https://maps.example/{z}/{x}.png", "https://maps.example/{z}/{x}/{y}.png; script-src *".replace("https", "ftp"), "https://evil'self'/{z}/{x}/{y}"]) {
+        await assert.rejects(promisify(execFile)(process.execPath, ["viewer/server.js", "--mesh", "globe", "--base-map", address]), { code: 1, stderr: /--base-map must be an address/ });
+    }
+});
+
+test("the border has the values of SQL; tiles say where the mesh is not, and take a range of colours", async () => {
+    const { status, body } = await plane.get("/api/hull");
+    assert.equal(status, 200);
+    assert.equal(body.length, Number(psql("SELECT count(*) FROM abacus_hull('terrain')")));
+    for (const { x, y, value } of body.slice(0, 5)) assert.equal(value, Number(psql(`SELECT abacus_interpolate('terrain', ${x}, ${y})`)));
+    assert.deepEqual((await plane.get("/api/lines")).body, []);
+    const bytes = async (path) => Buffer.from(await (await fetch(plane.origin + path)).arrayBuffer());
+    const sql = (call) => Buffer.from(psql(`SELECT encode(${call}, 'hex')`), "hex");
+    const { world } = (await plane.get("/api/info")).body, own = `world => '{${world}}', attribute => 'height'`;
+    assert.ok((await bytes("/tiles/terrain/9/256/255?outside=none")).equals(sql(`abacus_tile_terrain('terrain', 9, 256, 255, ${own}, fill => -32768)`)));
+    assert.ok((await bytes("/tiles/picture/9/256/255?low=700&high=900&size=512&edges=no")).equals(sql(`abacus_tile_picture('terrain', 9, 256, 255, ${own}, range => '{700,900}', edges => false, size => 512)`)));
+    for (const wrong of ["low=x", "size=5000", "size=1.5"]) assert.equal((await plane.get(`/tiles/picture/9/256/255?${wrong}`)).status, 400, wrong);
+    assert.equal((await plane.get("/api/hull?attribute=depth")).status, 400);
 });
 
 test("functions are those of the extension, whatever else is called so", async () => {

@@ -72,11 +72,18 @@ export async function connect() {
     return client;
 }
 
+/** Drops a mesh. psql() would stop this process, and with it the servers: a page that reads the mesh then would never let go of it. */
+export async function drop(mesh) {
+    const client = await connect();
+    await client.query(`SET client_min_messages = warning; DROP TABLE ${mesh} CASCADE`);
+    await client.end();
+}
+
 /** Waits for a condition; long enough for a machine that has much else to do. */
-export async function eventually(condition, what) {
-    for (const until = Date.now() + 30_000; Date.now() < until;) {
+export async function eventually(condition, what, most = 30_000) {
+    for (const until = Date.now() + most; Date.now() < until;) {
         if (await condition()) return;
         await new Promise((resolve) => setTimeout(resolve, 50));
     }
-    throw new Error(`not within 30 seconds: ${what}`);
+    throw new Error(`not within ${most / 1000} seconds: ${what}`);
 }

@@ -1,28 +1,62 @@
-// A profile as a picture: the value along the way, with a dot at each edge that is crossed.
-import { counted, made, number, table } from "./common.js";
+// Profiles as a chart: the value along each line, with axes, and a cursor that other parts follow.
+import UPlot from "uplot";
+import { element } from "./common.js";
 
-const mostDots = 2000, mostInTable = 1000; // more cannot be told apart, nor read
-const width = 360, height = 180, margin = { left: 46, right: 8, top: 10, bottom: 22 };
+const style = (name) => getComputedStyle(document.documentElement).getPropertyValue(name).trim();
+let plot = null, shown = null, opened = () => {};
 
-export function chart(rows, name) {
-    const known = rows.filter((row) => row.value !== null);
-    const [low, high] = known.reduce(([least, most], { value }) => [Math.min(least, value), Math.max(most, value)], [Infinity, -Infinity]);
-    const length = rows.at(-1).distance;
-    const x = (distance) => margin.left + (distance / (length || 1)) * (width - margin.left - margin.right);
-    const y = (value) => height - margin.bottom - ((value - low) / (high - low || 1)) * (height - margin.top - margin.bottom);
-    let path = "", isOpen = false;
-    for (const row of rows) {
-        if (row.value !== null) path += `${isOpen ? "L" : "M"}${x(row.distance).toFixed(2)},${y(row.value).toFixed(2)}`;
-        isOpen = row.value !== null;
-    }
-    const text = (at, words, anchor) => made("text", { class: "axis", x: at[0], y: at[1], "text-anchor": anchor }, words);
-    const dots = (known.length > mostDots ? [] : known).map((row) => made("circle", { class: "crossing", cx: x(row.distance).toFixed(2), cy: y(row.value).toFixed(2), r: rows.length > 150 ? 1 : 2 },
-        made("title", {}, `${number(row.value)} at distance ${number(row.distance)}`)));
-    const words = `Profile of ${name}: ${counted(known.length, "place")}, length ${number(length)}${known.length ? `, values ${number(low)} to ${number(high)}` : ""}`;
-    const picture = made("svg", { viewBox: `0 0 ${width} ${height}`, role: "img", "aria-label": words }, made("path", { class: "line", d: path }), ...dots,
-        ...(known.length ? [text([margin.left - 4, y(high) + 4], number(Number(high.toPrecision(5))), "end"), text([margin.left - 4, y(low)], number(Number(low.toPrecision(5))), "end")] : []),
-        text([margin.left, height - 6], "0", "start"), text([width - margin.right, height - 6], number(Number(length.toPrecision(5))), "end"));
-    const details = made("details", {}, made("summary", {}, rows.length > mostInTable ? `As a table (the first ${mostInTable} places)` : "As a table"),
-        table(rows.slice(0, mostInTable).map((row) => [number(row.distance), number(row.x), number(row.y), number(row.value)]), ["distance", "x", "y", name]));
-    return { picture, details, words };
+function axes(unitOfLength, name, unit) {
+    const common = { stroke: style("--muted"), font: "12px system-ui, sans-serif", grid: { stroke: style("--line"), width: 1 }, ticks: { stroke: style("--line"), width: 1, size: 4 } };
+    const words = (plot, values) => values.map((value) => value.toLocaleString("en", { maximumSignificantDigits: 6 }));
+    return [{ ...common, label: unitOfLength ? `Distance (${unitOfLength})` : "Distance", labelSize: 18, labelFont: "12px system-ui, sans-serif", size: 34, values: words },
+        { ...common, label: unit ? `${name} (${unit})` : name, labelSize: 18, labelFont: "12px system-ui, sans-serif", size: 62, values: words }];
+}
+
+/** Values between those of the x that a series has: the chart has one list of x for all of them. */
+function joined(series) {
+    return UPlot.join(series.map(({ x, y }) => [x, y]), series.map(({ y }) => y.map((value) => (value === null ? 2 : 1))));
+}
+
+function draw() {
+    const box = element("chart"), { series, name, unit, unitOfLength, moved } = shown;
+    plot?.destroy();
+    plot = new UPlot({
+        width: Math.max(box.clientWidth, 100), height: Math.max(box.clientHeight, 100),
+        scales: { x: { time: false } },
+        legend: { show: false },
+        cursor: { y: false, points: { size: 9, fill: (one, i) => one.series[i].stroke(), stroke: () => style("--surface-solid"), width: 2 }, drag: { x: true, y: false } },
+        axes: axes(unitOfLength, name, unit),
+        series: [{}, ...series.map(({ colour, width = 2, dash, fill, hasPoints }) => ({ stroke: colour, width, dash, fill, spanGaps: true,
+            points: { show: Boolean(hasPoints), size: 5, stroke: colour, fill: style("--surface-solid") } }))],
+        hooks: { setCursor: [({ cursor, posToVal }) => moved(cursor.left >= 0 ? plot?.posToVal(cursor.left, "x") ?? null : null)] },
+    }, joined(series), box);
+}
+
+/** Shows lines in the chart below the map: `series` of { x, y, colour … }; `moved(x)` hears where the cursor is. */
+export function openChart(given) {
+    shown = given;
+    element("dock").hidden = false;
+    document.body.classList.add("charted");
+    element("dock-title").textContent = given.title;
+    for (const tool of element("dock").querySelectorAll(".of-profiles")) tool.hidden = !given.hasTools;
+    element("chart").setAttribute("aria-label", given.words);
+    draw();
+    opened(element("dock").offsetHeight);
+}
+
+export function closeChart() {
+    if (element("dock").hidden && !plot) return;
+    element("dock").hidden = true;
+    document.body.classList.remove("charted");
+    plot?.destroy();
+    plot = shown = null;
+    opened(0);
+}
+
+/** `closed` is called when the user closes the chart, `resized` with the height that it takes from the map. */
+export function setUpChart(closed, resized) {
+    opened = resized;
+    new ResizeObserver(() => plot?.setSize({ width: element("chart").clientWidth, height: element("chart").clientHeight })).observe(element("chart"));
+    matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => shown && draw());
+    element("dock").addEventListener("closed", () => (closeChart(), closed()));
 }

@@ -15,10 +15,41 @@ export async function answering(task) {
     }
 }
 
+/** A sentence goes to the line at the bottom, what is longer to the panel, which opens. */
 export function say(content, kind = "") {
-    const answer = element("answer");
-    answer.className = kind;
-    answer.replaceChildren(...[content].flat());
+    const isLine = typeof content === "string";
+    element("hint").className = `card ${kind}`;
+    element("hint").hidden = !isLine;
+    element("hint-text").textContent = isLine ? content : "";
+    if (isLine) return;
+    element("answer").replaceChildren(...[content].flat());
+    openPanel("panel");
+}
+
+/** Opens a panel. On a small screen there is room for one. */
+export function openPanel(id, isOpen = true) {
+    element(id).hidden = !isOpen;
+    for (const other of ["panel", "display"])
+        if (isOpen && other !== id && matchMedia("(max-width: 60rem)").matches) openPanel(other, false);
+    const button = element(`${id}-open`);
+    button?.setAttribute("aria-expanded", String(isOpen));
+}
+
+/** Buttons that close what they are in. */
+export function setUpPanels() {
+    for (const button of document.querySelectorAll(".close"))
+        button.addEventListener("click", () => {
+            const closed = button.closest("[id].card");
+            if (element(`${closed.id}-open`)) openPanel(closed.id, false);
+            else closed.hidden = true;
+            closed.dispatchEvent(new Event("closed"));
+        });
+    element("display-open").addEventListener("click", () => openPanel("display", element("display").hidden));
+    element("go-open").addEventListener("click", () => {
+        element("go").hidden = !element("go").hidden;
+        element("go-open").setAttribute("aria-expanded", String(!element("go").hidden));
+        if (!element("go").hidden) element("x").focus();
+    });
 }
 
 export function made(name, attributes = {}, ...children) {
@@ -30,7 +61,7 @@ export function made(name, attributes = {}, ...children) {
 }
 
 /** A number of things in words: 1 change, 2 changes. */
-export const counted = (count, one, many = `${one}s`) => `${count} ${count === 1 ? one : many}`;
+export const counted = (count, one, many = `${one}s`) => `${count} ${String(count) === "1" ? one : many}`;
 
 /** The same as a part of a sentence: 1 unsaved change was undone. */
 export const undone = (count) => `${counted(count, "unsaved change")} ${count === 1 ? "was" : "were"} undone`;
@@ -65,20 +96,24 @@ export function circumsphere(corners) {
 
 export const centroid = (corners) => corners[0].map((_, axis) => corners.reduce((sum, p) => sum + p[axis], 0) / corners.length);
 
-/** What there is to say of a place. */
-export function describe(found, word) {
-    const rows = [["place", found.place.map(number).join(", ")]];
-    if (!found.simplex) rows.push([word, "none: the place is outside the mesh"]);
-    else {
-        const { center, radius } = circumsphere(found.simplex.corners);
-        rows.push([`vertices of the ${word}`, found.simplex.ids.join(" ")], ["code", found.simplex.code],
-            [found.place.length === 2 ? "circumcircle" : "circumsphere", `radius ${number(radius)}, centre ${center.map(number).join(", ")}`]);
-        found.neighbours.forEach((one, facet) => rows.push([`across facet ${facet}`, one ? one.ids.join(" ") : "none: the mesh ends here"]));
-    }
-    for (const [method, value] of Object.entries(found.values)) rows.push([`value, ${method}`, number(value)]);
-    if (found.nearest) rows.push(["nearest vertex", `${found.nearest.vertex}, ${number(found.nearest.distance)} away`]);
-    return table(rows);
+/** What there is to say of a place: the value, and the simplex around it. `names`: of the attributes. */
+export function describe(found, word, names = [], unit = "") {
+    const parts = [];
+    const { linear } = found.values;
+    if (linear !== undefined && linear !== null) parts.push(made("p", { class: "value" }, number(linear), made("small", {}, unit && ` ${unit}`)));
+    const rows = [["Place", found.place.map(number).join(", ")]];
+    if (found.nearest) rows.push(["Nearest vertex", `${found.nearest.vertex}, ${number(found.nearest.distance)} away`]);
+    if (!found.simplex) rows.push([capital(word), "none: the place is outside the mesh"]);
+    for (const [method, value] of Object.entries(found.values)) rows.push([`Value, ${method}`, number(value)]);
+    if (!found.simplex) return [...parts, table(rows)];
+    const { center, radius } = circumsphere(found.simplex.corners), { ids, values, code } = found.simplex;
+    const corners = ids.map((id, i) => [id, ...names.map((_, k) => number(values?.[i]?.[k]))]);
+    const more = [[found.place.length === 2 ? "Circumcircle" : "Circumsphere", `radius ${number(radius)}, centre ${center.map(number).join(", ")}`], ["Code", code],
+        ...found.neighbours.map((one, facet) => [`Across facet ${facet}`, one ? one.ids.join(" ") : "none: the mesh ends here"])];
+    return [...parts, table(rows), made("h3", {}, `Vertices of the ${word}`), table(corners, ["id", ...names]),
+        made("h3", {}, capital(word)), table(more)];
 }
+const capital = (word) => word[0].toUpperCase() + word.slice(1);
 
 /** Buttons that walk to neighbours. */
 export function offerWalk(found, walk) {

@@ -2,8 +2,11 @@
 // what is at a place or along a ray.
 import * as three from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
-import { answering, centroid, counted, describe, element, number, offerWalk, say, surround, table, tool } from "./common.js";
+import { answering, centroid, counted, describe, element, made, number, offerWalk, say, setUpPanels, surround, table, tool } from "./common.js";
 import { change, setUpEditing } from "./editing.js";
+import { placeIcons } from "./icons.js";
+import { drawLegend } from "./legend.js";
+import { stops } from "./palette.js";
 import { ask } from "./requests.js";
 
 let mesh = await ask("info");
@@ -25,7 +28,10 @@ canvas.setAttribute("role", "application");
 canvas.setAttribute("aria-label", "The mesh in space. Press Enter to use the tool at the middle of the plane, 1 to 4 to walk across the facets of a tetrahedron, Page Up or Page Down to move the plane.");
 view.append(canvas);
 const scene = new three.Scene();
-scene.background = new three.Color(0xf4f1ea);
+const dark = matchMedia("(prefers-color-scheme: dark)");
+/** Colours of what has none of its own, on a light ground and on a dark one. */
+const theme = () => (dark.matches ? { ground: 0x12181a, outline: 0x5d6a6d } : { ground: 0xe8ecea, outline: 0x8a9799 });
+scene.background = new three.Color(theme().ground);
 const camera = new three.PerspectiveCamera(40, 1, 0.01, 100);
 camera.up.set(0, 0, 1);
 camera.position.set(1.8, -3.2, 2.2);
@@ -64,14 +70,14 @@ const edges = (corners) => corners.flatMap((p, i) => corners.slice(i + 1).flatMa
 
 // ---- Values as colours -------------------------------------------------------------------------
 
-const stops = [0xf2e6b1, 0xf0a35e, 0xc8443c, 0x6b2a6e, 0x22306b].map((rgb) => new three.Color(rgb));
+const palette = stops("space").map((rgb) => new three.Color(rgb));
 const attribute = () => mesh.attributes.find((one) => one.name === element("attribute").value);
 function colour(value) {
     const range = attribute();
     if (value === null || value === undefined || !range) return new three.Color(0xbab6ae);
-    const t = Math.min(Math.max((value - range.least) / (range.greatest - range.least || 1), 0), 1) * (stops.length - 1);
-    const i = Math.min(Math.floor(t), stops.length - 2);
-    return stops[i].clone().lerp(stops[i + 1], t - i);
+    const t = Math.min(Math.max((value - range.least) / (range.greatest - range.least || 1), 0), 1) * (palette.length - 1);
+    const i = Math.min(Math.floor(t), palette.length - 2);
+    return palette[i].clone().lerp(palette[i + 1], t - i);
 }
 const named = (parameters) => ({ ...parameters, ...(attribute() && { attribute: attribute().name }) });
 
@@ -84,7 +90,7 @@ function box() {
 }
 async function hull() {
     const corners = (await ask("hull"))?.map((row) => [row.x, row.y, row.z]);
-    put("hull", lines(corners ? corners.flatMap((p, i) => [p, corners[i % 3 === 2 ? i - 2 : i + 1]]) : box(), 0x9aa5a5));
+    put("hull", lines(corners ? corners.flatMap((p, i) => [p, corners[i % 3 === 2 ? i - 2 : i + 1]]) : box(), theme().outline));
     view.dataset.outline = corners ? "hull" : "box";
 }
 
@@ -161,7 +167,7 @@ async function locate(place) {
     for (const one of found.neighbours) if (one) group.add(lines(edges(one.corners), 0x146c2e));
     if (found.simplex) group.add(lines(edges(found.simplex.corners), 0x0b57d0));
     put("found", group);
-    say(describe(found, "tetrahedron"));
+    say(describe(found, "tetrahedron", mesh.attributes.map((one) => one.name), element("unit").value));
     offerWalk(found, walk);
 }
 const walk = (facet) => answering(async () => {
@@ -177,7 +183,7 @@ async function ray(place, from) {
     const inside = rows.reduce((sum, row) => sum + row.leaves - row.enters, 0) * Math.hypot(...direction);
     put("found", rows.length ? lines(rows.flatMap((row) => [end(row.enters), end(row.leaves)]), 0xb3261e) : null);
     offerWalk(null);
-    say([`The ray crosses ${counted(rows.length, "tetrahedron", "tetrahedra")}; its length inside the mesh is ${number(inside)}.`,
+    say([made("p", {}, `The ray crosses ${counted(rows.length, "tetrahedron", "tetrahedra")}; its length inside the mesh is ${number(inside)}.`),
         ...(rows.length ? [table(rows.slice(0, 12).map((row) => [row.enters.toPrecision(5), row.leaves.toPrecision(5), [row.v0, row.v1, row.v2, row.v3].join(" ")]), ["enters", "leaves", "tetrahedron"])] : [])]);
 }
 
@@ -263,7 +269,8 @@ canvas.addEventListener("keydown", (event) => {
     else return;
     event.preventDefault();
 });
-element("tools").addEventListener("submit", (event) => {
+element("tools").addEventListener("submit", (event) => event.preventDefault());
+element("go").addEventListener("submit", (event) => {
     event.preventDefault();
     const place = ["x", "y", "z"].map((id) => element(id).valueAsNumber);
     if (place.some(Number.isNaN)) return say("x, y and z must be numbers.", "error");
@@ -277,13 +284,28 @@ element("tools").addEventListener("change", ({ target }) => {
 element("cut").addEventListener("input", () => moveTo(Number(element("cut").value)));
 element("axis").addEventListener("change", () => moveTo(500));
 element("level").addEventListener("input", surfaceAgain);
-element("attribute").addEventListener("change", () => (cutAgain(), surfaceAgain()));
+element("attribute").addEventListener("change", () => (legend(), cutAgain(), surfaceAgain()));
+element("unit").addEventListener("input", legend);
+dark.addEventListener("change", () => {
+    scene.background = new three.Color(theme().ground);
+    answering(hull);
+});
 
-element("name").textContent = `Mesh ${mesh.name}`;
+function legend() {
+    const range = attribute();
+    document.body.classList.toggle("bare", !range);
+    if (range) drawLegend({ name: range.name, unit: element("unit").value, palette: "space", range: [range.least, range.greatest > range.least ? range.greatest : range.least + 1] });
+}
+
+placeIcons();
+setUpPanels();
+element("name").textContent = mesh.name;
 document.title = `${mesh.name} – Abacus`;
-element("summary").textContent = `${counted(mesh.simplices, "tetrahedron", "tetrahedra")}, ${counted(mesh.vertices, "vertex", "vertices")}`;
+element("summary").textContent = `${counted(mesh.simplices.toLocaleString("en"), "tetrahedron", "tetrahedra")}, ${counted(mesh.vertices.toLocaleString("en"), "vertex", "vertices")}`;
 element("attribute").append(...mesh.attributes.map((one) => new Option(one.name)));
+legend();
 if (mesh.edit) setUpEditing(async () => { mesh = await ask("info"); put("found", null); await Promise.all([section(), hull()]); });
+say("Click a place on the plane.");
 await answering(hull);
 element("cut-value").textContent = `${"xyz"[axis()]} = ${number(at())}`;
 await answering(section);

@@ -1,0 +1,31 @@
+// Icons of Lucide, which the build puts in as text: <i data-icon="eye"> becomes the picture of an eye.
+import box from "lucide-static/icons/box.svg";
+import chartLine from "lucide-static/icons/chart-line.svg";
+import circlePlus from "lucide-static/icons/circle-plus.svg";
+import copy from "lucide-static/icons/copy.svg";
+import eye from "lucide-static/icons/eye.svg";
+import layers from "lucide-static/icons/layers.svg";
+import locateFixed from "lucide-static/icons/locate-fixed.svg";
+import maximize from "lucide-static/icons/maximize.svg";
+import mousePointerClick from "lucide-static/icons/mouse-pointer-click.svg";
+import move from "lucide-static/icons/move.svg";
+import moveUpRight from "lucide-static/icons/move-up-right.svg";
+import plus from "lucide-static/icons/plus.svg";
+import ruler from "lucide-static/icons/ruler.svg";
+import save from "lucide-static/icons/save.svg";
+import trash from "lucide-static/icons/trash-2.svg";
+import undo from "lucide-static/icons/undo-2.svg";
+import x from "lucide-static/icons/x.svg";
+
+const icons = { box, "chart-line": chartLine, "circle-plus": circlePlus, copy, eye, layers, "locate-fixed": locateFixed, maximize,
+    "mouse-pointer-click": mousePointerClick, move, "move-up-right": moveUpRight, plus, ruler, save, "trash-2": trash, "undo-2": undo, x };
+
+export function icon(name) {
+    const picture = new DOMParser().parseFromString(icons[name], "image/svg+xml").documentElement;
+    picture.setAttribute("aria-hidden", "true");
+    return picture;
+}
+
+export function placeIcons() {
+    for (const place of document.querySelectorAll("i[data-icon]")) place.replaceWith(icon(place.dataset.icon));
+}
