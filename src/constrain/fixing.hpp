@@ -8,7 +8,7 @@
 // again.
 //
 // So a long segment is put in piece by piece. If a piece crosses many triangles, some of them at a
-// time are replaced by others of which the segment crosses as few as can be: those of a funnel
+// time are replaced by others of which the segment crosses as few as possible: those of a funnel
 // along it (pieces.hpp). Then it crosses these, and goes on. So few pages are in memory together.
 // Edges that the funnels have left beside the segment may fail the test. They are kept, and
 // restored when it has been put in (restoring.hpp). A thread that keeps within an interval leaves

@@ -52,7 +52,7 @@ public:
         return Side{static_cast<std::uint32_t>(piece << 2) | static_cast<std::uint32_t>(facet)};
     }
     static bool is_outside(Side s) { return (static_cast<std::uint32_t>(s) & outside_bit) != 0; }
-    /// Of what is outside, in the order in which it was made known.
+    /// Counts what is outside, in the order in which it was made known.
     static std::uint32_t number(Side s) { return static_cast<std::uint32_t>(s) & ~outside_bit; }
     static std::uint32_t piece_of(Side s) { return number(s) >> 2; }
     static int facet_of(Side s) { return static_cast<int>(number(s) & 3); }
