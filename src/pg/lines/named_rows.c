@@ -28,7 +28,8 @@ named_rows_create(const char *name, const NamedColumn *columns, int count)
 	rows->desc = CreateTemplateTupleDesc(count);
 	for (int i = 0; i < count; i++)
 		TupleDescInitEntry(rows->desc, (AttrNumber) (i + 1), columns[i].name, columns[i].type, -1, 0);
-	rows->store = tuplestore_begin_heap(true, false, work_mem);
+	/* there are several, beside what sorts them */
+	rows->store = tuplestore_begin_heap(true, false, Max(64, work_mem / 4));
 	return rows;
 }
 
@@ -85,7 +86,8 @@ set(const char *setting, const char *value)
 
 /*
  * Until plain_names_end(), names in queries are those of PostgreSQL, unless they have a schema. If
- * the mesh is written, queries may use the memory of maintenance, as all its sorts do.
+ * the mesh is written, queries may use the memory of maintenance, as all its sorts do; hash tables, too,
+ * and no multiple of it.
  */
 int
 plain_names_begin(bool writes)
@@ -97,6 +99,7 @@ plain_names_begin(bool writes)
 	{
 		set("jit", "off");
 		set("work_mem", psprintf("%d", Max(work_mem, maintenance_work_mem)));
+		set("hash_mem_multiplier", "1");
 	}
 	return level;
 }
