@@ -8,16 +8,14 @@ savepoints. The model knows which changes must be refused: lines that cross, poi
 Then the lines must be those of the model, the fixed edges those that follow from it by exact arithmetic, the triangles those of a fresh mesh,
 and abacus_check must find no fault. Everything follows from seed and world number.
 """
-import argparse
-import collections
 import copy
 import os
 import random
-import sys
 import time
 
 import numpy
 
+import model_worlds
 from psql_session import Failure, Session
 
 UNIT = 2 ** 16  # places are whole numbers of 1 / UNIT, so halves are exact
@@ -84,7 +82,7 @@ class Model:
 
 
 class World:
-    def __init__(self, seed, number, folder, done):
+    def __init__(self, seed, number, options, done):
         self.chance = random.Random(f"{seed}.{number}.lines")
         self.done = done
         self.extent = self.chance.choice((8, 14, 40, 1000))
@@ -92,7 +90,7 @@ class World:
         self.grain = UNIT if self.extent < 1000 else 1
         self.model = Model()
         self.next_id = self.next_line = 1
-        self.script = os.path.join(folder, f"lines-seed-{seed}-world-{number}.sql")
+        self.script = os.path.join(options.folder, f"lines-seed-{seed}-world-{number}.sql")
         self.log = open(self.script, "w", encoding="utf-8")
         self.session = Session()
 
@@ -339,34 +337,5 @@ class World:
             os.remove(self.script)
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("-t", "--seconds", type=float, default=60)
-    parser.add_argument("-n", "--worlds", type=int, default=10 ** 9)
-    parser.add_argument("-s", "--seed", type=int, default=random.SystemRandom().randrange(10 ** 9))
-    parser.add_argument("-w", "--world", type=int, help="only this one")
-    parser.add_argument("--folder", required=True)
-    options = parser.parse_args()
-    done = collections.Counter()
-    end = time.monotonic() + options.seconds if options.world is None else float("inf")
-    first, last = (options.world, options.world) if options.world is not None else (1, options.worlds)
-    print(f"seed {options.seed}", flush=True)
-    for number in range(first, last + 1):
-        world = World(options.seed, number, options.folder, done)
-        try:
-            world.live(end)
-        except Failure as failure:
-            world.close(keep=True)
-            print(f"{failure}\nFAILED: seed {options.seed}, world {number}: run again with -s {options.seed} -w {number}; its SQL is in {world.script}")
-            sys.exit(1)
-        world.close(keep=False)
-        done["worlds"] += 1
-        if time.monotonic() > end:
-            break
-    for what in sorted(done):
-        print(f"{done[what]:8} {what}")
-    print(f"{done['steps']} steps in {done['worlds']} worlds agree with the model (seed {options.seed})")
-
-
 if __name__ == "__main__":
-    main()
+    model_worlds.main(__doc__, World, "{steps} steps in {worlds} worlds agree with the model")

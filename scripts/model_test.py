@@ -18,14 +18,12 @@ simplices must be those that CGAL makes of the same points (oracle_compare).
 Everything follows from seed and world number. A failure prints both, and leaves
 the SQL of the world in a file.
 """
-import argparse
-import collections
 import os
 import random
 import subprocess
-import sys
 import time
 
+import model_worlds
 from model_places import Places
 from psql_session import Failure, Session
 
@@ -310,7 +308,7 @@ class World:
         if oracle.returncode != 0:
             raise Failure(f"{mesh} is not CGAL's:\n{oracle.stdout}")
 
-    def run(self, end):
+    def live(self, end):
         coordinates = ", ".join(f"{a} float8" for a in self.axes)
         domain = ""
         if self.chance.random() < 0.5:
@@ -358,39 +356,5 @@ class World:
             os.remove(self.script)
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__,
-                                     formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("-t", "--seconds", type=float, default=60)
-    parser.add_argument("-n", "--worlds", type=int, default=10**9)
-    parser.add_argument("-s", "--seed", type=int, default=random.SystemRandom().randrange(10**9))
-    parser.add_argument("-w", "--world", type=int, help="only this one")
-    parser.add_argument("--oracle", required=True)
-    parser.add_argument("--folder", required=True)
-    options = parser.parse_args()
-    done = collections.Counter()
-    end = time.monotonic() + options.seconds if options.world is None else float("inf")
-    first = options.world if options.world is not None else 1
-    last = options.world if options.world is not None else options.worlds
-    print(f"seed {options.seed}", flush=True)
-    for number in range(first, last + 1):
-        world = World(options.seed, number, options, done)
-        try:
-            world.run(end)
-        except Failure as failure:
-            world.close(keep=True)
-            print(f"{failure}\nFAILED: seed {options.seed}, world {number}: run again with "
-                  f"-s {options.seed} -w {number}; its SQL is in {world.script}")
-            sys.exit(1)
-        world.close(keep=False)
-        done["worlds"] += 1
-        if time.monotonic() > end:
-            break
-    for what in sorted(done):
-        print(f"{done[what]:8} {what}")
-    print(f"{done['steps']} steps in {done['worlds']} worlds agree with the model "
-          f"(seed {options.seed})")
-
-
 if __name__ == "__main__":
-    main()
+    model_worlds.main(__doc__, World, "{steps} steps in {worlds} worlds agree with the model", "--oracle")

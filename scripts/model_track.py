@@ -7,13 +7,11 @@ follows, too. From these a fresh mesh is made. Where that fails, since lines cro
 have failed as well, and nothing may have changed. Otherwise vertices, triangles, values and lines must be those of the fresh mesh, vertices
 that lines have made must be those that it lacks points for, and abacus_check must find no fault. Everything follows from seed and world number.
 """
-import argparse
-import collections
 import os
 import random
-import sys
 import time
 
+import model_worlds
 from psql_session import Failure, Session
 
 # what a fresh mesh refuses, the mesh that follows must refuse, in its own words
@@ -22,7 +20,7 @@ FIRST_ID = -10 ** 6  # of points, in some worlds
 
 
 class World:
-    def __init__(self, seed, number, folder, done):
+    def __init__(self, seed, number, options, done):
         self.chance = random.Random(f"{seed}.{number}.track")
         self.done = done
         self.extent = self.chance.choice((5, 8, 8, 12))
@@ -34,7 +32,7 @@ class World:
         self.taken = set()
         self.next_id = self.chance.choice((1, 1, FIRST_ID))
         self.next_line = 1
-        self.script = os.path.join(folder, f"track-seed-{seed}-world-{number}.sql")
+        self.script = os.path.join(options.folder, f"track-seed-{seed}-world-{number}.sql")
         self.log = open(self.script, "w", encoding="utf-8")
         self.session = Session()
 
@@ -367,34 +365,5 @@ class World:
             os.remove(self.script)
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("-t", "--seconds", type=float, default=60)
-    parser.add_argument("-n", "--worlds", type=int, default=10 ** 9)
-    parser.add_argument("-s", "--seed", type=int, default=random.SystemRandom().randrange(10 ** 9))
-    parser.add_argument("-w", "--world", type=int, help="only this one")
-    parser.add_argument("--folder", required=True)
-    options = parser.parse_args()
-    done = collections.Counter()
-    end = time.monotonic() + options.seconds if options.world is None else float("inf")
-    first, last = (options.world, options.world) if options.world is not None else (1, options.worlds)
-    print(f"seed {options.seed}", flush=True)
-    for number in range(first, last + 1):
-        world = World(options.seed, number, options.folder, done)
-        try:
-            world.live(end)
-        except Failure as failure:
-            world.close(keep=True)
-            print(f"{failure}\nFAILED: seed {options.seed}, world {number}: run again with -s {options.seed} -w {number}; its SQL is in {world.script}")
-            sys.exit(1)
-        world.close(keep=False)
-        done["worlds"] += 1
-        if time.monotonic() > end:
-            break
-    for what in sorted(done):
-        print(f"{done[what]:8} {what}")
-    print(f"{done['comparisons']} comparisons in {done['worlds']} worlds agree with fresh meshes (seed {options.seed})")
-
-
 if __name__ == "__main__":
-    main()
+    model_worlds.main(__doc__, World, "{comparisons} comparisons in {worlds} worlds agree with fresh meshes")
