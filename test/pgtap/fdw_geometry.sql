@@ -30,7 +30,7 @@ SELECT abacus_triangulate('slanted', 'SELECT id, x, CASE WHEN id % 2 = 0 THEN x 
 SELECT is(abacus_publish('slanted', srid => 25832, z => 'height')::text, '{slanted_cells,slanted_points,slanted_fixed_edges,slanted_breaklines}', 'published');
 SELECT set_eq($$ SELECT f_table_name::text, f_geometry_column::text, coord_dimension, srid, type::text FROM geometry_columns WHERE f_table_name LIKE 'slanted%' $$,
     $$ VALUES ('slanted_cells', 'geom', 3, 25832, 'POLYGON'), ('slanted_points', 'geom', 3, 25832, 'POINT'),
-       ('slanted_fixed_edges', 'geom', 2, 25832, 'LINESTRING'), ('slanted_breaklines', 'geom', 2, 25832, 'MULTILINESTRING') $$, 'geometry_columns has all');
+       ('slanted_fixed_edges', 'geom', 3, 25832, 'LINESTRING'), ('slanted_breaklines', 'geom', 3, 25832, 'MULTILINESTRING') $$, 'geometry_columns has all');
 SELECT is(count(*), 0::bigint, 'points are what their columns say') FROM slanted_points
 WHERE NOT (ST_X(geom), ST_Y(geom), ST_Z(geom), ST_SRID(geom)) = (x, y, height, 25832);
 SELECT is(count(*), 0::bigint, 'cells are the polygons of their corners') FROM slanted_cells
