@@ -19,7 +19,7 @@ namespace {
 // Squares of samples along a side of a tile, with one more on each side.
 constexpr std::uint32_t squares = 128;
 // The most segments of contours: if there are more, the interval is doubled.
-constexpr double most_segments = 60000;
+constexpr double most_segments = 32000;
 
 constexpr double margin = double{tile_buffer} / tile_extent;
 
