@@ -101,7 +101,8 @@ class CrossingLines(unittest.TestCase):
 
     @classmethod
     def tearDownClass(cls):
-        abacus.psql("DROP TABLE IF EXISTS contours, roads, crossing, corners, meeting, noded, pieces, star CASCADE; DROP TABLE IF EXISTS ground, terrain, place CASCADE")
+        abacus.psql("DROP TABLE IF EXISTS contours, roads, crossing, corners, meeting, noded, pieces, star CASCADE; DROP TABLE IF EXISTS ground, terrain, place CASCADE; "
+                    "DROP EXTENSION abacus_postgis, postgis CASCADE")
 
     def test_refused_first(self):
         """Lines that cross are refused, and the error counts what abacus_crossings returned: as many as PostGIS finds."""

@@ -174,6 +174,7 @@ class Published(unittest.TestCase):
 
     @classmethod
     def tearDownClass(cls):
+        abacus.psql("DROP TABLE IF EXISTS corners, meeting, reported CASCADE")
         abacus.psql = cls.psql
         cls.session.close()
 
