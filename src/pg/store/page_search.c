@@ -22,21 +22,35 @@
 #include "pg/store/page_search.h"
 #include "pg/store/page_type.h"
 
-/* Starts a search with these scan keys; opens the scan when first used. */
+/*
+ * Starts a search with these scan keys; opens the scan when first used. What the scan allocates, now
+ * or later (nbtree notes rows that are dead), lasts as long as the scan, not as the caller's memory.
+ */
 static void
 search(PageTable *table, PageScan *scan, ScanKey keys, int count)
 {
+	MemoryContext old = MemoryContextSwitchTo(table->memory);
+
 	if (scan->scan == NULL)
 	{
-		MemoryContext old = MemoryContextSwitchTo(table->memory);
-
 		if (table->index == NULL)
 			table->index = page_index_open_primary(table->heap, page_table_lock_mode(table));
 		scan->slot = MakeSingleTupleTableSlot(RelationGetDescr(table->heap), &TTSOpsBufferHeapTuple);
 		scan->scan = port_index_beginscan(table->heap, table->index, GetActiveSnapshot(), count);
-		MemoryContextSwitchTo(old);
 	}
 	index_rescan(scan->scan, keys, count, NULL, 0);
+	MemoryContextSwitchTo(old);
+}
+
+/* Goes on to the next row; false after the last. */
+static bool
+advance(PageTable *table, PageScan *scan, ScanDirection direction)
+{
+	MemoryContext old = MemoryContextSwitchTo(table->memory);
+	bool		found = index_getnext_slot(scan->scan, direction, scan->slot);
+
+	MemoryContextSwitchTo(old);
+	return found;
 }
 
 /* "key <strategy> given" over all key columns, as one scan key. */
@@ -73,7 +87,7 @@ page_table_get(PageTable *table, const int64 *key, StoredPage *page)
 	for (int i = 0; i < PAGE_TABLE_KEYS; i++)
 		ScanKeyInit(&keys[i], i + 1, BTEqualStrategyNumber, F_INT8EQ, Int64GetDatum(key[i]));
 	search(table, &table->forward, keys, PAGE_TABLE_KEYS);
-	if (!index_getnext_slot(table->forward.scan, BackwardScanDirection, table->forward.slot))
+	if (!advance(table, &table->forward, BackwardScanDirection))
 	{
 		page_scan_close(&table->forward);
 		return false;
@@ -92,7 +106,7 @@ page_table_floor(PageTable *table, const int64 *key, StoredPage *page)
 	page_table_see_own_changes(table);
 	bound_key(table, &table->floor, &bound, BTLessEqualStrategyNumber, key);
 	search(table, &table->floor, &bound, 1);
-	if (!index_getnext_slot(table->floor.scan, BackwardScanDirection, table->floor.slot))
+	if (!advance(table, &table->floor, BackwardScanDirection))
 		return false;
 	stored_page_read(table->floor.slot, page);
 	return true;
@@ -120,7 +134,7 @@ page_table_next(PageTable *table, const int64 *key, StoredPage *page)
 			bound_key(table, &table->forward, &bound, BTGreaterStrategyNumber, key);
 		search(table, &table->forward, &bound, 1);
 	}
-	if (!index_getnext_slot(table->forward.scan, ForwardScanDirection, table->forward.slot))
+	if (!advance(table, &table->forward, ForwardScanDirection))
 	{
 		table->at_key = false;
 		return false;
