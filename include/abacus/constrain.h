@@ -67,9 +67,9 @@ ABACUS_API abacus_status abacus_build_lines(abacus_build *build, abacus_segments
 
 /*
  * fix: makes each segment an edge of the mesh, or a chain of edges, that is fixed. Its ends must be
- * vertices: ABACUS_ERROR (argument) if one is not. An edge is soft if all its segments are. ABACUS_ERROR (crossing) if a segment crosses
- * another one, or a fixed edge, elsewhere than in a vertex. The mesh must have simplices; points that
- * wait are inserted before.
+ * vertices: ABACUS_ERROR (argument) if one is not. An edge is soft if all its segments are.
+ * ABACUS_ERROR (crossing) if a segment crosses another one, or a fixed edge, elsewhere than in a
+ * vertex. The mesh must have simplices; points that wait are inserted before.
  */
 ABACUS_API abacus_status abacus_build_fix(abacus_build *build, abacus_segments *segments,
 										  abacus_header *header, abacus_error *error);

@@ -9,6 +9,23 @@
 
 #include <abacus/constrain.h>
 
+namespace {
+
+/// Calls call(object) for an object of dimension 2; its result is that of the interface.
+template <template <int> class T, class Call>
+abacus_status in_plane(abacus::ByDimension<T> &object, abacus_error *error, Call call) {
+    return abacus::guard(error, [&] {
+        return object.visit([&]<int D>(T<D> &opened) -> abacus_status {
+            if constexpr (D == 2)
+                return call(opened);
+            else
+                throw abacus::Error(ABACUS_ERROR_ARGUMENT, "lines need a mesh of dimension 2");
+        });
+    });
+}
+
+} // namespace
+
 struct abacus_segments {
     abacus_segments(const abacus_host *table, const abacus_facts &facts, std::size_t memory)
         : host(*table), segments(host, facts, memory) {}
@@ -63,14 +80,8 @@ abacus_status abacus_build_unfix(abacus_build *build, abacus_segments *segments,
 
 abacus_status abacus_build_vertex_at(abacus_build *build, const double place[2], uint64_t *record,
                                      abacus_error *error) {
-    using namespace abacus;
-    return guard(error, [&] {
-        return build->build.visit([&]<int D>(Build<D> &opened) -> abacus_status {
-            if constexpr (D != 2)
-                throw Error(ABACUS_ERROR_ARGUMENT, "lines need a mesh of dimension 2");
-            else
-                return opened.find_vertex(finite_point<2>(place), record) ? ABACUS_OK : ABACUS_END;
-        });
+    return in_plane(build->build, error, [&](abacus::Build<2> &opened) {
+        return opened.find_vertex(abacus::finite_point<2>(place), record) ? ABACUS_OK : ABACUS_END;
     });
 }
 
@@ -78,45 +89,32 @@ abacus_status abacus_edges_along(abacus_mesh *mesh, const double a[2], const dou
                                  abacus_along_report report, void *context, int *is_whole,
                                  abacus_error *error) {
     using namespace abacus;
-    return guard(error, [&] {
-        return mesh->reader.visit([&]<int D>(Reader<D> &reader) -> abacus_status {
-            if constexpr (D != 2) {
-                throw Error(ABACUS_ERROR_ARGUMENT, "lines need a mesh of dimension 2");
-            } else {
-                const auto tell = [&](VertexIndex from, VertexIndex to, Fixed how) {
-                    const VertexHeap<2> &vertices = reader.cache().vertices();
-                    const std::int64_t ids[2] = {vertices.id(from), vertices.id(to)};
-                    const Point<2> &p = vertices.point(from), &q = vertices.point(to);
-                    const double ends[2][2] = {{p[0], p[1]}, {q[0], q[1]}};
-                    const abacus_edge_kind kind = how == Fixed::no     ? ABACUS_FREE_EDGE
-                                                  : how == Fixed::soft ? ABACUS_SOFT_EDGE
-                                                                       : ABACUS_HARD_EDGE;
-                    if (report(context, ids, ends, kind) != ABACUS_HOST_OK) throw HostFailure{};
-                };
-                *is_whole = edges_along(reader, finite_point<2>(a), finite_point<2>(b), tell);
-                return ABACUS_OK;
-            }
-        });
+    return in_plane(mesh->reader, error, [&](Reader<2> &reader) {
+        const auto tell = [&](VertexIndex from, VertexIndex to, Fixed how) {
+            const VertexHeap<2> &vertices = reader.cache().vertices();
+            const std::int64_t ids[2] = {vertices.id(from), vertices.id(to)};
+            const Point<2> &p = vertices.point(from), &q = vertices.point(to);
+            const double ends[2][2] = {{p[0], p[1]}, {q[0], q[1]}};
+            const abacus_edge_kind kind = how == Fixed::no     ? ABACUS_FREE_EDGE
+                                          : how == Fixed::soft ? ABACUS_SOFT_EDGE
+                                                               : ABACUS_HARD_EDGE;
+            host::require(report(context, ids, ends, kind));
+        };
+        *is_whole = edges_along(reader, finite_point<2>(a), finite_point<2>(b), tell);
+        return ABACUS_OK;
     });
 }
 
 abacus_status abacus_fixed_straight_on(abacus_mesh *mesh, const double behind[2],
                                        const double at[2], double next[2], abacus_error *error) {
     using namespace abacus;
-    return guard(error, [&] {
-        return mesh->reader.visit([&]<int D>(Reader<D> &reader) -> abacus_status {
-            if constexpr (D != 2) {
-                throw Error(ABACUS_ERROR_ARGUMENT, "lines need a mesh of dimension 2");
-            } else {
-                const auto corner = corner_at(reader, finite_point<2>(at));
-                if (!corner) return ABACUS_END;
-                const auto end =
-                    fixed_straight_on(reader.cache(), *corner, finite_point<2>(behind));
-                if (!end) return ABACUS_END;
-                for (int axis = 0; axis < 2; ++axis) next[axis] = (*end)[axis];
-                return ABACUS_OK;
-            }
-        });
+    return in_plane(mesh->reader, error, [&](Reader<2> &reader) {
+        const auto corner = corner_at(reader, finite_point<2>(at));
+        if (!corner) return ABACUS_END;
+        const auto end = fixed_straight_on(reader.cache(), *corner, finite_point<2>(behind));
+        if (!end) return ABACUS_END;
+        std::copy(end->begin(), end->end(), next);
+        return ABACUS_OK;
     });
 }
 

@@ -27,7 +27,7 @@ template <int D>
 void Constraining<D>::take(const std::uint64_t *records, const std::uint64_t *, std::size_t n) {
     if constexpr (D == 2) {
         Fixing fixing(work_.core->mesh);
-        for (; n > 0; --n, records += segment_words) {
+        for (; n > 0; --n, records += segment_record_words) {
             const Segment segment = record_segment(records);
             fixing.fix(segment.a, segment.b, segment.how);
         }
@@ -39,15 +39,15 @@ template <int D> std::uint64_t Constraining<D>::fix(Segments &segments) {
         if (!work_.has_simplices())
             throw Error(ABACUS_ERROR_STATE, "the points of the mesh span no triangle");
         work_.core->mesh.is_constrained = true;
-        gathering_.begin(*this, segments.size(), segment_words);
+        gathering_.begin(*this, segments.size(), segment_record_words);
         if (!gathering_.gathers()) {
             Fixing fixing(work_.core->mesh);
             return each(segments, [&](const Segment &s) { fixing.fix(s.a, s.b, s.how); });
         }
-        std::array<std::uint64_t, segment_words> record;
+        std::array<std::uint64_t, segment_record_words> record;
         const std::uint64_t all = each(segments, [&](const Segment &s) {
             fill_segment(record.data(), s);
-            gathering_.gather_one(record.data(), segment_words, work_.domain.code(s.a));
+            gathering_.gather_one(record.data(), segment_record_words, work_.domain.code(s.a));
         });
         gathering_.finish();
         return all;

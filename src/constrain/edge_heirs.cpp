@@ -7,17 +7,6 @@
 
 namespace abacus {
 
-namespace {
-
-void put_point(std::uint64_t *words, const Point<2> &p) {
-    for (int i = 0; i < 2; ++i) words[i] = ordered(p[i]);
-}
-Point<2> point_at(const std::uint64_t *words) {
-    return {from_ordered(words[0]), from_ordered(words[1])};
-}
-
-} // namespace
-
 EdgeHeirs::EdgeHeirs(Delaunay<2> &mesh, std::size_t memory)
     : mesh_(mesh), sort_(mesh.cache().host(), words, key_words, memory) {}
 
@@ -63,10 +52,10 @@ std::optional<EdgeHeirs::Edge> EdgeHeirs::edge_from(const Point<2> &at, const Po
 
 void EdgeHeirs::note(const Edge &heir, const Edge &old, double marker) {
     std::uint64_t *const record = sort_.add();
-    put_point(record, heir.from);
-    put_point(record + 2, heir.to);
-    put_point(record + edge_words, old.from);
-    put_point(record + edge_words + 2, old.to);
+    put_ordered(record, heir.from);
+    put_ordered(record + 2, heir.to);
+    put_ordered(record + edge_words, old.from);
+    put_ordered(record + edge_words + 2, old.to);
     record[2 * edge_words] = std::bit_cast<std::uint64_t>(marker);
 }
 
@@ -80,8 +69,9 @@ void EdgeHeirs::each(const std::function<void(const Point<2> &, const Point<2> &
         if (is_any && is_same && !(reached < heir.to)) visit(heir.from, heir.to, marker);
     };
     while (const std::uint64_t *const record = sort_.next()) {
-        const Edge of{point_at(record), point_at(record + 2)};
-        const Edge old{point_at(record + edge_words), point_at(record + edge_words + 2)};
+        const Edge of{point_from_ordered<2>(record), point_from_ordered<2>(record + 2)};
+        const Edge old{point_from_ordered<2>(record + edge_words),
+                       point_from_ordered<2>(record + edge_words + 2)};
         const double value = std::bit_cast<double>(record[2 * edge_words]);
         if (!is_any || of != heir) {
             end();

@@ -26,7 +26,7 @@ struct Segment {
 
 /// A segment as the record of a point: that of its lesser end, with the kind as its id and the
 /// other end as attributes.
-constexpr std::size_t segment_words = record_words(2, 2);
+constexpr std::size_t segment_record_words = record_words(2, 2);
 inline void fill_segment(std::uint64_t *record, const Segment &segment) {
     fill_record<2>(record, static_cast<std::int64_t>(segment.how), segment.a, segment.b.data(),
                    segment.b.size());

@@ -90,7 +90,6 @@ public:
 protected:
     /// Brings the point at infinity to the end of a piece's corners.
     void bring_infinity_last(std::size_t piece);
-    std::size_t outsides() const { return outside_.size(); }
 
     Cache<2> &cache_;
 

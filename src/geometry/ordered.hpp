@@ -1,6 +1,8 @@
 // Doubles as words in the same order, for sorting and for columns.
 #pragma once
 
+#include "geometry/point.hpp"
+
 #include <bit>
 #include <cstdint>
 
@@ -13,6 +15,16 @@ constexpr std::uint64_t ordered(double x) {
 }
 constexpr double from_ordered(std::uint64_t rank) {
     return std::bit_cast<double>(rank >> 63 ? rank & ~(1ull << 63) : ~rank);
+}
+
+/// The same for the coordinates of a point.
+template <std::size_t D> void put_ordered(std::uint64_t *words, const std::array<double, D> &p) {
+    for (const double x : p) *words++ = ordered(x);
+}
+template <int D> Point<D> point_from_ordered(const std::uint64_t *words) {
+    Point<D> p;
+    for (double &x : p) x = from_ordered(*words++);
+    return p;
 }
 
 } // namespace abacus

@@ -31,7 +31,7 @@ void Crossings::find(const LineSegment &a, const LineSegment &b) {
     std::uint64_t *const place = at.is_exact ? record : record + pair_words;
     write_segment(a, pair);
     write_segment(b, pair + segment_words);
-    write_place(at.place, place);
+    put_ordered(place, at.place);
     if (!at.is_exact) record[pair_words + place_words] = 0;
 }
 
@@ -61,7 +61,7 @@ bool Crossings::next(Crossing &crossing) {
     crossing.first = read_segment(record);
     crossing.second = read_segment(record + segment_words);
     const std::uint64_t *const place = record + pair_words;
-    for (int i = 0; i < 2; ++i) crossing.at.place[i] = from_ordered(place[i]);
+    crossing.at.place = point_from_ordered<2>(place);
     crossing.at.is_exact = place[place_words] != 0;
     return true;
 }

@@ -50,10 +50,7 @@ private:
     static constexpr std::size_t pair_words = 2 * segment_words, crossing_words = pair_words + 3;
     static constexpr std::size_t place_words = 2;
 
-    void add_end(const Point<2> &place) { write_place(place, ends_.add()); }
-    static void write_place(const Point<2> &place, std::uint64_t *words) {
-        for (int i = 0; i < 2; ++i) words[i] = ordered(place[i]);
-    }
+    void add_end(const Point<2> &place) { put_ordered(ends_.add(), place); }
     void sweep();
     void find(const LineSegment &a, const LineSegment &b);
     /// Finds those of exact_ that are at no end.

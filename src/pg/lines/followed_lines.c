@@ -150,9 +150,7 @@ read_lines(FollowedLines *lines, const LineQueries *queries)
 	lines->lines.reading = queries->reading;
 	lines->kind = queries->kind;
 	if (!lines->all && lines->changed == NULL)
-	{
 		find_changed(lines);
-	}
 	if (!lines->all && lines->changed->count == 0)
 		return false;
 	read_rows(lines, queries);

@@ -188,8 +188,8 @@ add_fetched(Host *host, abacus_segments *segments, abacus_segment *added, LastPo
 }
 
 /*
- * Adds the segments of lines: `query` returns line, x, y, part and whether it is soft, in the order of the lines and of
- * the positions in each. SPI is connected.
+ * Adds the segments of lines: `query` returns line, x, y, part and whether it is soft, in the order of
+ * the lines and of the positions in each. SPI is connected.
  */
 void
 mesh_lines_add(Host *host, abacus_segments *segments, const char *query)

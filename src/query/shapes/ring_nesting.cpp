@@ -11,10 +11,8 @@ namespace {
 constexpr std::size_t edge_words = 6, ray_words = 5, edge_key = 4;
 
 void put_edge(std::uint64_t *words, const Point<2> &from, const Point<2> &to) {
-    words[0] = ordered(from[0]);
-    words[1] = ordered(from[1]);
-    words[2] = ordered(to[0]);
-    words[3] = ordered(to[1]);
+    put_ordered(words, from);
+    put_ordered(words + 2, to);
 }
 
 } // namespace

@@ -5,19 +5,6 @@
 
 namespace abacus {
 
-namespace {
-
-Point<2> point_at(const std::uint64_t *words) {
-    return {from_ordered(words[0]), from_ordered(words[1])};
-}
-
-void put_point(std::uint64_t *words, const Point<2> &p) {
-    words[0] = ordered(p[0]);
-    words[1] = ordered(p[1]);
-}
-
-} // namespace
-
 Rings::Rings(Reader<2> &reader, const Kept &kept, std::size_t memory)
     : host_(reader.cache().host()), reader_(reader), cache_(reader.cache()), kept_(kept),
       border_(cache_, kept), share_(memory / 4), rows_(host_, words, 2, share_) {
@@ -48,7 +35,7 @@ bool Rings::next(Visit &visit) {
     visit = {record[0],
              record[1],
              static_cast<std::int64_t>(record[2]),
-             point_at(record + 3),
+             point_from_ordered<2>(record + 3),
              {record[5], record[6]},
              record[7] != 0};
     return true;
@@ -58,8 +45,8 @@ bool Rings::next(Visit &visit) {
 
 void Rings::add_start(RecordSort &starts, const Border::Edge &edge) {
     std::uint64_t *const record = starts.add();
-    put_point(record, edge.from);
-    put_point(record + 2, edge.to);
+    put_ordered(record, edge.from);
+    put_ordered(record + 2, edge.to);
     record[4] = edge.page.code;
     record[5] = edge.page.part;
 }
@@ -117,8 +104,11 @@ void Rings::walk(RecordSort &starts, RecordSpool &visits, RecordSort &by_place) 
     const auto edges = static_cast<double>(edges_);
     host_.spool_expect(visits.spool_bytes(edges) + by_place.spool_bytes(edges));
     for (std::uint64_t ring = 0; const std::uint64_t *start = starts.next(); ++ring) {
-        Border::Edge first{
-            point_at(start), point_at(start + 2), {start[4], start[5]}, no_handle, 0};
+        Border::Edge first{point_from_ordered<2>(start),
+                           point_from_ordered<2>(start + 2),
+                           {start[4], start[5]},
+                           no_handle,
+                           0};
         border_.find(first);
         Border::Edge at = first;
         std::uint64_t position = 0;
@@ -127,8 +117,8 @@ void Rings::walk(RecordSort &starts, RecordSpool &visits, RecordSort &by_place) 
             visit[0] = place[0] = ring;
             visit[1] = place[3] = position++;
             visit[2] = static_cast<std::uint64_t>(border_.id(at));
-            put_point(visit + 3, at.from);
-            put_point(place + 1, at.from);
+            put_ordered(visit + 3, at.from);
+            put_ordered(place + 1, at.from);
             visit[5] = at.page.code;
             visit[6] = at.page.part;
             visit[7] = 0;
@@ -201,8 +191,8 @@ void Rings::find_least(RecordSort &rings, RecordSort &least) const {
         if (begin == 0) before = last;
         if (is_after_open) after = first;
         std::uint64_t *const record = least.add();
-        put_point(record, point);
-        put_point(record + 2, after);
+        put_ordered(record, point);
+        put_ordered(record + 2, after);
         record[4] = ring;
         record[5] = begin;
         record[6] = size;
@@ -214,7 +204,7 @@ void Rings::find_least(RecordSort &rings, RecordSort &least) const {
             ring = record[0];
             size = 0;
         }
-        const Point<2> p = point_at(record + 3);
+        const Point<2> p = point_from_ordered<2>(record + 3);
         if (size == 0) first = p;
         if (is_after_open && size > 0) after = p;
         is_after_open = size == 0 || lexicographically_less<2>(p, point);
@@ -235,7 +225,8 @@ void Rings::number_rings(RecordSort &least, RecordSort &numbers) const {
     std::uint64_t number = 0;
     const auto end_group = [&] {
         std::sort(group.begin(), group.end(), [](const Record &a, const Record &b) {
-            return orientation(point_at(a.data()), point_at(&a[2]), point_at(&b[2])) > 0;
+            return orientation(point_from_ordered<2>(a.data()), point_from_ordered<2>(&a[2]),
+                               point_from_ordered<2>(&b[2])) > 0;
         });
         for (const Record &record : group) {
             std::uint64_t *const to = numbers.add();

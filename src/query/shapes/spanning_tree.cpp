@@ -15,15 +15,6 @@ constexpr std::size_t bytes_per_vertex = 2 * sizeof(std::uint32_t) + sizeof(std:
 
 constexpr std::uint64_t least_room = 16, most_room = std::uint64_t{1} << 31;
 
-template <int D> void put_point(std::uint64_t *words, const Point<D> &p) {
-    for (int i = 0; i < D; ++i) words[i] = ordered(p[i]);
-}
-template <int D> Point<D> point_at(const std::uint64_t *words) {
-    Point<D> p;
-    for (int i = 0; i < D; ++i) p[i] = from_ordered(words[i]);
-    return p;
-}
-
 void put(RecordSort &sort, std::initializer_list<std::uint64_t> words) {
     std::copy(words.begin(), words.end(), sort.add());
 }
@@ -61,7 +52,7 @@ template <int D> void SpanningTree<D>::rank(LightEdges<D> &edges, RecordSort &en
         const LengthKey key = length_key<D>(edge.point[0], edge.point[1]);
         std::copy(key.begin(), key.end(), record);
         for (int i = 0; i < 2; ++i) {
-            put_point<D>(record + key.size() + i * D, edge.point[i]);
+            put_ordered(record + key.size() + i * D, edge.point[i]);
             record[key.size() + 2 * D + i] = static_cast<std::uint64_t>(edge.id[i]);
         }
     });
@@ -73,12 +64,12 @@ template <int D> void SpanningTree<D>::rank(LightEdges<D> &edges, RecordSort &en
         std::copy_n(record, length_words, before.begin());
         LengthKey key;
         std::copy_n(record, key.size(), key.begin());
-        const Point<D> a = point_at<D>(record + length_words - 2 - 2 * D);
-        const Point<D> b = point_at<D>(record + length_words - 2 - D);
+        const Point<D> a = point_from_ordered<D>(record + length_words - 2 - 2 * D);
+        const Point<D> b = point_from_ordered<D>(record + length_words - 2 - D);
         for (const Point<D> &end : {a, b}) {
             std::uint64_t *const to = ends.add();
             to[0] = edges.domain().code(end);
-            put_point<D>(to + 1, end);
+            put_ordered(to + 1, end);
             to[D + 1] = rank;
         }
         std::uint64_t *const detail = details_.add();

@@ -10,15 +10,6 @@ namespace abacus {
 
 namespace {
 
-template <int D> double dot(const Point<D> &a, const Point<D> &b) {
-    double sum = 0;
-    for (int i = 0; i < D; ++i) sum += a[i] * b[i];
-    return sum;
-}
-template <int D> Point<D> minus(Point<D> a, const Point<D> &b) {
-    for (int i = 0; i < D; ++i) a[i] -= b[i];
-    return a;
-}
 template <int D> Point<D> plus(Point<D> a, const Point<D> &b) {
     for (int i = 0; i < D; ++i) a[i] += b[i];
     return a;
@@ -29,13 +20,6 @@ Point<3> times(const Point<3> &a, const Point<3> &b) {
 /// b² − a², for vectors that may differ by little.
 template <int D> double growth(const Point<D> &a, const Point<D> &b) {
     return dot<D>(minus<D>(b, a), plus<D>(b, a));
-}
-
-/// Whether p, which the simplex contains or has in its circumsphere, is on a facet's line.
-template <int D> bool is_on_facet(const Cache<D> &cache, Handle h, int facet, const Point<D> &p) {
-    Corners<D> corners = cache.corners(cache.simplex(h));
-    corners[facet] = &p;
-    return orientation<D>(corners) == 0;
 }
 
 } // namespace
@@ -282,11 +266,13 @@ template <int D> bool Sibson<D>::normalize() {
 
 template <int D>
 bool Sibson<D>::find(Cache<D> &cache, Handle h, const Point<D> &p, bool has_soft_lines) {
-    bool is_found = false;
+    bool is_known = false;
     if constexpr (D == 2)
-        if (has_soft_lines) is_found = soft_zone_.find(cache, h, p, zone_);
-    if (!has_soft_lines) is_found = find_zone(cache, h, p);
-    if (!is_found) return false;
+        if (has_soft_lines && soft_zone_.matters(cache, h, p)) {
+            if (!soft_zone_.find(cache, h, p, zone_)) return false;
+            is_known = true;
+        }
+    if (!is_known && !find_zone(cache, h, p)) return false;
     see(cache, p);
     order_zone(cache);
     centres_.clear();

@@ -33,7 +33,7 @@
 #include "delaunay/ridges.hpp"
 #include "query/locate/reader.hpp"
 #include "query/values/soft_zone.hpp"
-#include "query/values/zone_simplex.hpp"
+#include "query/values/zone.hpp"
 
 namespace abacus {
 

@@ -12,9 +12,7 @@ namespace {
 
 constexpr double sure = 1e-9, margin = 1e-5; // of lengths
 
-Point<2> minus(const Point<2> &a, const Point<2> &b) { return {a[0] - b[0], a[1] - b[1]}; }
 double cross(const Point<2> &a, const Point<2> &b) { return a[0] * b[1] - a[1] * b[0]; }
-double dot(const Point<2> &a, const Point<2> &b) { return a[0] * b[0] + a[1] * b[1]; }
 
 /// Of two points: whether rounding leaves their difference as good as exact.
 bool is_sure_difference(const Point<2> &a, const Point<2> &b) {
@@ -27,14 +25,14 @@ bool is_sure_difference(const Point<2> &a, const Point<2> &b) {
 bool may_meet_circle(const Point<2> &p, const Point<2> &u, const Point<2> &w, const Point<2> &x,
                      const Point<2> &y) {
     if (!is_sure_difference(u, p) || !is_sure_difference(w, p)) return true;
-    const Point<2> a = minus(u, p), b = minus(w, p), c = minus(x, p);
-    const double turn = cross(a, b), aa = dot(a, a), bb = dot(b, b);
+    const Point<2> a = minus<2>(u, p), b = minus<2>(w, p), c = minus<2>(x, p);
+    const double turn = cross(a, b), aa = dot<2>(a, a), bb = dot<2>(b, b);
     if (!(turn * turn > 1e-12 * aa * bb)) return true; // the centre is far away
     const Point<2> centre{(aa * b[1] - bb * a[1]) / (2 * turn),
                           (bb * a[0] - aa * b[0]) / (2 * turn)};
-    const Point<2> along = minus(y, x), from = minus(centre, c);
-    const double t = std::clamp(dot(from, along) / dot(along, along), 0.0, 1.0);
-    const Point<2> nearest = minus(from, {along[0] * t, along[1] * t});
+    const Point<2> along = minus<2>(y, x), from = minus<2>(centre, c);
+    const double t = std::clamp(dot<2>(from, along) / dot<2>(along, along), 0.0, 1.0);
+    const Point<2> nearest = minus<2>(from, {along[0] * t, along[1] * t});
     const double radius = std::hypot(centre[0], centre[1]);
     // Where it lies is as uncertain as the place itself is from here.
     const double far = std::hypot(c[0], c[1]) + std::hypot(along[0], along[1]);
@@ -50,28 +48,32 @@ Handle SoftZone::seen_beyond(Cache<2> &cache, Handle h, int facet) const {
 }
 
 bool SoftZone::is_at_end(Cache<2> &cache, Handle h, const Point<2> &p) const {
-    for (int i = 0; i < 3; ++i) {
-        Corners<2> corners = cache.corners(cache.simplex(h));
-        corners[i] = &p;
-        if (orientation<2>(corners) == 0 && seen_beyond(cache, h, i) == no_handle) return true;
-    }
+    for (int i = 0; i < 3; ++i)
+        if (is_on_facet<2>(cache, h, i, p) && seen_beyond(cache, h, i) == no_handle) return true;
     return false;
 }
 
-void SoftZone::take(Handle h) {
+void SoftZone::take(Cache<2> &cache, Handle h) {
     marks_.set(h, Marks::inside);
     region_.push_back(h);
+    has_soft_ = has_soft_ || cache.fixed(h).any_soft();
+}
+
+void SoftZone::forget_region() {
+    for (const Handle met : region_) marks_.set(met, Marks::none);
+    region_.clear();
+    has_soft_ = false;
 }
 
 void SoftZone::begin(Cache<2> &cache, Handle h, const Point<2> &p) {
-    region_.clear();
-    take(h);
+    forget_region();
+    take(cache, h);
     for (std::size_t n = 0; n < region_.size(); ++n) {
         if (n % 1024 == 1023) cache.poll();
         for (int i = 0; i < 3; ++i) {
             const Handle beyond = seen_beyond(cache, region_[n], i);
             if (beyond == no_handle || marks_.get(beyond) != Marks::none) continue;
-            if (side_of<2>(cache, cache.simplex(beyond), p) == Side::inside) take(beyond);
+            if (side_of<2>(cache, cache.simplex(beyond), p) == Side::inside) take(cache, beyond);
         }
     }
 }
@@ -81,6 +83,30 @@ std::uint32_t SoftZone::number_of(Handle h) const {
         std::lower_bound(places_.begin(), places_.end(), h,
                          [](const Place &place, Handle other) { return place.triangle < other; });
     return at != places_.end() && at->triangle == h ? at->number : ZoneSimplex<2>::not_seen;
+}
+
+void SoftZone::find_rim(Cache<2> &cache) {
+    rim_.clear();
+    border_.clear();
+    for (const Handle h : region_)
+        for (int i = 0; i < 3; ++i) {
+            const Handle beyond = seen_beyond(cache, h, i);
+            if (beyond == no_handle || marks_.get(beyond) != Marks::none) continue;
+            const auto &vertex = cache.simplex(h).vertex;
+            rim_.push_back({cache.point(vertex[(i + 1) % 3]), cache.point(vertex[(i + 2) % 3])});
+            border_.push_back(make_link(h, i));
+        }
+}
+
+bool SoftZone::matters(Cache<2> &cache, Handle h, const Point<2> &p) {
+    begin(cache, h, p);
+    if (!has_soft_) {
+        find_rim(cache);
+        grow(cache, p);
+    }
+    const bool has_soft = has_soft_;
+    forget_region();
+    return has_soft;
 }
 
 void SoftZone::triangulate(Cache<2> &cache, Pieces &pieces) {
@@ -171,7 +197,7 @@ bool SoftZone::grow(Cache<2> &cache, const Point<2> &p) {
         if (beyond == no_handle || marks_.get(beyond) != Marks::none) return;
         const auto &vertex = cache.simplex(h).vertex;
         if (is_reached(p, cache.point(vertex[(i + 1) % 3]), cache.point(vertex[(i + 2) % 3])))
-            take(beyond);
+            take(cache, beyond);
     };
     for (const Link edge : border_) cross(link_simplex(edge), link_facet(edge));
     for (std::size_t n = before; n < region_.size(); ++n) {
@@ -190,7 +216,7 @@ bool SoftZone::find(Cache<2> &cache, Handle h, const Point<2> &p, Arena<ZoneSimp
         triangulate(cache, pieces);
         find_zone(cache, pieces, p);
     } while (grow(cache, p));
-    for (const Handle met : region_) marks_.set(met, Marks::none);
+    forget_region();
     Arena<std::uint32_t> place(host_);
     place.resize(pieces.size());
     std::fill(place.begin(), place.end(), ZoneSimplex<2>::not_seen);

@@ -15,10 +15,12 @@
 //   So the region grows across such edges, and all is made again, until no circle reaches across
 //   one. The test of that may err on one side, in doubles: if it is in doubt, the region grows. All
 //   decisions about the triangulation are exact.
+//
+// Where no soft edge is in the region, all this is what the mesh is already.
 #pragma once
 
 #include "delaunay/pieces.hpp"
-#include "query/values/zone_simplex.hpp"
+#include "query/values/zone.hpp"
 #include "traverse/marks.hpp"
 
 namespace abacus {
@@ -29,8 +31,10 @@ public:
         : host_(host), marks_(host), region_(host), places_(host), border_(host), rim_(host),
           numbers_(host) {}
 
-    /// Finds the zone of p, which lies in the closure of a finite triangle and is not a vertex.
-    /// False if p is on the hull or on a hard edge.
+    /// Whether soft edges may matter to the zone of p, which lies in the closure of a finite
+    /// triangle and is not a vertex. If not, the zone is that of the mesh.
+    bool matters(Cache<2> &cache, Handle h, const Point<2> &p);
+    /// Finds the zone of p. False if p is on the hull or on a hard edge.
     bool find(Cache<2> &cache, Handle h, const Point<2> &p, Arena<ZoneSimplex<2>> &zone);
 
 private:
@@ -46,10 +50,13 @@ private:
     /// What may be beyond an edge of a triangle: a triangle, or no_handle.
     Handle seen_beyond(Cache<2> &cache, Handle h, int facet) const;
     bool is_at_end(Cache<2> &cache, Handle h, const Point<2> &p) const;
-    void take(Handle h);
+    void take(Cache<2> &cache, Handle h);
+    void forget_region();
     /// The region to begin with: triangles whose circle has p.
     void begin(Cache<2> &cache, Handle h, const Point<2> &p);
     std::uint32_t number_of(Handle h) const;
+    /// The rim of the region, as if it was the zone.
+    void find_rim(Cache<2> &cache);
     /// Makes the triangulation of the region.
     void triangulate(Cache<2> &cache, Pieces &pieces);
     /// Finds the zone in it, by numbers of pieces, and its rim.
@@ -62,6 +69,7 @@ private:
     const Host &host_;
     Marks marks_;                  // the region, while it is looked for
     Arena<Handle> region_;         // triangles of the mesh
+    bool has_soft_ = false;        // one of them has a soft edge
     Arena<Place> places_;          // of the region, by handles
     Arena<Link> border_;           // edges of the region with something beyond, from inside
     Arena<Rim> rim_;               // of the zone
