@@ -1,38 +1,13 @@
 // Fixed edges behind the C interface.
-#include "constrain/segments.hpp"
-
 #include "capi/build.hpp"
 #include "capi/dispatch.hpp"
 #include "capi/handle.hpp"
+#include "capi/in_plane.hpp"
 #include "capi/mesh.hpp"
+#include "capi/segments.hpp"
 #include "query/locate/edges_along.hpp"
 
 #include <abacus/constrain.h>
-
-namespace {
-
-/// Calls call(object) for an object of dimension 2; its result is that of the interface.
-template <template <int> class T, class Call>
-abacus_status in_plane(abacus::ByDimension<T> &object, abacus_error *error, Call call) {
-    return abacus::guard(error, [&] {
-        return object.visit([&]<int D>(T<D> &opened) -> abacus_status {
-            if constexpr (D == 2)
-                return call(opened);
-            else
-                throw abacus::Error(ABACUS_ERROR_ARGUMENT, "lines need a mesh of dimension 2");
-        });
-    });
-}
-
-} // namespace
-
-struct abacus_segments {
-    abacus_segments(const abacus_host *table, const abacus_facts &facts, std::size_t memory)
-        : host(*table), segments(host, facts, memory) {}
-
-    const abacus::Host host;
-    abacus::Segments segments;
-};
 
 abacus_status abacus_segments_open(const abacus_host *host, const abacus_facts *facts,
                                    size_t memory, abacus_segments **segments, abacus_error *error) {
@@ -53,7 +28,10 @@ abacus_status abacus_segments_add(abacus_segments *segments, const abacus_segmen
     });
 }
 
-void abacus_segments_close(abacus_segments *segments) { abacus::destroy_handle(segments); }
+void abacus_segments_close(abacus_segments *segments) {
+    if (segments != nullptr) segments->segments.close();
+    abacus::destroy_handle(segments);
+}
 
 abacus_status abacus_build_lines(abacus_build *build, abacus_segments_at at, void *context,
                                  abacus_error *error) {
@@ -80,7 +58,7 @@ abacus_status abacus_build_unfix(abacus_build *build, abacus_segments *segments,
 
 abacus_status abacus_build_vertex_at(abacus_build *build, const double place[2], uint64_t *record,
                                      abacus_error *error) {
-    return in_plane(build->build, error, [&](abacus::Build<2> &opened) {
+    return abacus::in_plane(build->build, "lines", error, [&](abacus::Build<2> &opened) {
         return opened.find_vertex(abacus::finite_point<2>(place), record) ? ABACUS_OK : ABACUS_END;
     });
 }
@@ -89,7 +67,7 @@ abacus_status abacus_edges_along(abacus_mesh *mesh, const double a[2], const dou
                                  abacus_along_report report, void *context, int *is_whole,
                                  abacus_error *error) {
     using namespace abacus;
-    return in_plane(mesh->reader, error, [&](Reader<2> &reader) {
+    return in_plane(mesh->reader, "lines", error, [&](Reader<2> &reader) {
         const auto tell = [&](VertexIndex from, VertexIndex to, Fixed how) {
             const VertexHeap<2> &vertices = reader.cache().vertices();
             const std::int64_t ids[2] = {vertices.id(from), vertices.id(to)};
@@ -108,7 +86,7 @@ abacus_status abacus_edges_along(abacus_mesh *mesh, const double a[2], const dou
 abacus_status abacus_fixed_straight_on(abacus_mesh *mesh, const double behind[2],
                                        const double at[2], double next[2], abacus_error *error) {
     using namespace abacus;
-    return in_plane(mesh->reader, error, [&](Reader<2> &reader) {
+    return in_plane(mesh->reader, "lines", error, [&](Reader<2> &reader) {
         const auto corner = corner_at(reader, finite_point<2>(at));
         if (!corner) return ABACUS_END;
         const auto end = fixed_straight_on(reader.cache(), *corner, finite_point<2>(behind));

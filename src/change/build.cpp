@@ -158,6 +158,24 @@ template <int D> void Build<D>::unfix(Segments &segments, abacus_header &header)
     });
 }
 
+template <int D>
+bool Build<D>::fill_regions(RegionParts &parts, abacus_region_fault &fault,
+                            abacus_header &header) {
+    bool is_sound = true;
+    change(header, [&] {
+        is_sound = constraining_.fill_regions(parts, fault);
+        return std::uint64_t{0};
+    });
+    return is_sound;
+}
+
+template <int D> void Build<D>::clear_regions(RegionParts &parts, abacus_header &header) {
+    change(header, [&] {
+        constraining_.clear_regions(parts);
+        return std::uint64_t{0};
+    });
+}
+
 template <int D> bool Build<D>::rekey(std::size_t memory, abacus_header &header) {
     work_.facts = &header.facts;
     if (!rekeying_.has_outgrown_domain(0) && !looks_crowded<D>(work_.host, header.facts))

@@ -70,6 +70,14 @@ public:
     void fix(Segments &segments, abacus_header &header);
     /// Inserts what waits, then frees the edges of segments over which the host has no line.
     void unfix(Segments &segments, abacus_header &header);
+    /// Puts triangles into the regions that have these parts, or says why that is impossible.
+    bool fill_regions(RegionParts &parts, abacus_region_fault &fault, abacus_header &header);
+    /// Takes all triangles out of these regions.
+    void clear_regions(RegionParts &parts, abacus_header &header);
+    /// Calls visit(region) for the regions on either side of segments, which are fixed.
+    void regions_along(Segments &segments, const std::function<void(RegionNumber)> &visit) {
+        constraining_.regions_along(segments, visit);
+    }
     /// Whether there is a vertex at p, and its record unless that is null; without one, also after
     /// fix() has met a crossing.
     bool find_vertex(const Point<D> &p, std::uint64_t *record) {

@@ -2,6 +2,7 @@
 
 #include "constrain/fixing.hpp"
 #include "constrain/freeing.hpp"
+#include "constrain/regions.hpp"
 
 namespace abacus {
 
@@ -67,6 +68,39 @@ template <int D> std::uint64_t Constraining<D>::unfix(Segments &segments) {
     } else {
         throw Error(ABACUS_ERROR_ARGUMENT, "lines need a mesh of dimension 2");
     }
+}
+
+template <int D>
+template <class Change>
+void Constraining<D>::with_regions(std::size_t memory, Change change) {
+    if constexpr (D == 2) {
+        if (!work_.has_simplices())
+            throw Error(ABACUS_ERROR_STATE, "the points of the mesh span no triangle");
+        work_.core->mesh.is_constrained = true;
+        Regions regions(work_.core->mesh, memory);
+        change(regions);
+    } else {
+        throw Error(ABACUS_ERROR_ARGUMENT, "regions need a mesh of dimension 2");
+    }
+}
+
+template <int D>
+bool Constraining<D>::fill_regions(RegionParts &parts, abacus_region_fault &fault) {
+    bool is_sound = true;
+    with_regions(parts.memory(), [&](auto &regions) { is_sound = regions.fill(parts, fault); });
+    return is_sound;
+}
+
+template <int D> void Constraining<D>::clear_regions(RegionParts &parts) {
+    with_regions(parts.memory(), [&](auto &regions) { regions.clear(parts); });
+}
+
+template <int D>
+void Constraining<D>::regions_along(Segments &segments,
+                                    const std::function<void(RegionNumber)> &visit) {
+    with_regions(RecordSort::least, [&](auto &regions) {
+        segments.each([&](const Segment &s) { regions.along(s.a, s.b, visit); });
+    });
 }
 
 template <int D> bool Constraining<D>::find_vertex(const Point<D> &p, std::uint64_t *record) {

@@ -5,7 +5,12 @@
 #pragma once
 
 #include "change/gathering.hpp"
+#include "constrain/region_parts.hpp"
 #include "constrain/segments.hpp"
+
+#include <abacus/regions.h>
+
+#include <functional>
 
 namespace abacus {
 
@@ -21,6 +26,13 @@ public:
     std::uint64_t fix(Segments &segments);
     /// Frees the edges of all segments over which the host has no line.
     std::uint64_t unfix(Segments &segments);
+    /// Puts triangles into the regions that have these parts; false, and `fault` says why, if that
+    /// is impossible.
+    bool fill_regions(RegionParts &parts, abacus_region_fault &fault);
+    /// Takes all triangles out of these regions.
+    void clear_regions(RegionParts &parts);
+    /// Calls visit(region) for the regions on either side of segments, which are fixed.
+    void regions_along(Segments &segments, const std::function<void(RegionNumber)> &visit);
     /// Whether the mesh has a vertex at p, and its record unless that is null.
     bool find_vertex(const Point<D> &p, std::uint64_t *record);
 
@@ -36,6 +48,8 @@ private:
     bool counts_crowded() const override { return false; }
 
     template <class Change> std::uint64_t each(Segments &segments, Change change);
+    /// Calls change(regions) with the regions of a mesh in the plane.
+    template <class Change> void with_regions(std::size_t memory, Change change);
 
     Workspace<D> &work_;
     Gathering<D> &gathering_;

@@ -1,23 +1,14 @@
 #include "constrain/fixing.hpp"
 
+#include "geometry/in_words.hpp"
+
 #include <algorithm>
-#include <charconv>
 #include <cstring>
 #include <string>
 
 namespace abacus {
 
 namespace {
-
-std::string in_words(const Point<2> &p) {
-    std::array<char, 64> digits;
-    std::string words = "(";
-    for (const double x : p) {
-        if (words.size() > 1) words += ", ";
-        words.append(digits.data(), std::to_chars(digits.begin(), digits.end(), x).ptr);
-    }
-    return words + ")";
-}
 
 [[noreturn]] void throw_no_vertex(const Point<2> &p) {
     throw Error(ABACUS_ERROR_ARGUMENT, "mesh has no vertex at " + in_words(p),
@@ -184,6 +175,7 @@ Point<2> Fixing::force_edge(const Way &way, const Point<2> &b) {
 
 void Fixing::begin_patch() {
     patch_.begin();
+    patch_.set_region(cache_.region(crossed_[0])); // all are in the same
     dangling_.clear();
     for (const Handle h : crossed_) mesh_.marks.set(h, Marks::inside);
     meet(left_, left_sides_);

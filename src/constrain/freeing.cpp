@@ -1,6 +1,19 @@
 #include "constrain/freeing.hpp"
 
+#include "geometry/in_words.hpp"
+
 namespace abacus {
+
+namespace {
+
+[[noreturn]] void throw_region_ends(const Point<2> &a, const Point<2> &b) {
+    throw Error(ABACUS_ERROR_STATE, "a line is the border of a region",
+                "A region ends at the edge from " + in_words(a) + " to " + in_words(b) + ".",
+                "Find the regions with abacus_regions(). Remove the region first, with "
+                "abacus_unregion().");
+}
+
+} // namespace
 
 Freeing::Freeing(Delaunay<2> &mesh, LineSource &lines)
     : mesh_(mesh), cache_(mesh.cache()), over_(mesh, lines), restoring_(mesh) {}
@@ -30,6 +43,8 @@ Point<2> Freeing::free_edge(const Point<2> &from, const Point<2> &b) {
     const Fixed left = over_.kind(from, end);
     if (left == how) return end;
     const Link outer = cache_.cross(link_simplex(inner), link_facet(inner));
+    if (left == Fixed::no && cache_.region(link_simplex(inner)) != cache_.region(link_simplex(outer)))
+        throw_region_ends(from, end);
     for (const Link side : {inner, outer}) {
         cache_.set_fixed(side, left);
         cache_.mark_dirty(link_simplex(side));

@@ -35,6 +35,7 @@ void Restoring::flip(Link side) {
     for (int i = 0; i < 4; ++i) fixed[i] = cache_.fixed(rim[i]);
     const std::array<VertexIndex, 3> vertex = cache_.simplex(t).vertex;
     const VertexIndex apex = cache_.simplex(u).vertex[d];
+    const RegionNumber region = cache_.region(t);
     for (const Handle h : {t, u}) {
         if (mesh_.log != nullptr) mesh_.log->go(cache_, h);
         cache_.destroy(h);
@@ -45,6 +46,8 @@ void Restoring::flip(Link side) {
     const std::array<Link, 4> inner{make_link(left, 2), make_link(left, 0), make_link(right, 2),
                                     make_link(right, 0)};
     cache_.connect(make_link(left, 1), make_link(right, 1));
+    if (region != no_region)
+        for (const Handle h : {left, right}) cache_.set_region(h, region);
     for (int i = 0; i < 4; ++i) {
         cache_.connect(inner[i], rim[i]);
         cache_.set_fixed(inner[i], fixed[i]);

@@ -63,9 +63,13 @@ public:
     /// Counts equal ones too.
     std::uint64_t size() const { return sort_.size(); }
 
-    /// Calls visit(segment) for each; no more can be added.
+    /// Calls visit(segment) for each; no more can be added. May be called again.
     template <class Visit> void each(Visit visit) {
-        sort_.finish();
+        if (is_finished_)
+            sort_.rewind();
+        else
+            sort_.finish();
+        is_finished_ = true;
         std::array<std::uint64_t, words - 1> last{};
         bool is_first = true;
         while (const std::uint64_t *record = sort_.next()) {
@@ -76,14 +80,15 @@ public:
             for (int i = 0; i < 4; ++i) x[i] = std::bit_cast<double>(record[1 + i]);
             visit(Segment{{x[0], x[1]}, {x[2], x[3]}, record[5] != 0 ? Fixed::soft : Fixed::hard});
         }
-        sort_.close();
     }
+    void close() { sort_.close(); }
 
 private:
     static constexpr std::size_t words = 6;
 
     RecordSort sort_; // code, both ends, 1 if it is soft
     std::optional<Domain<2>> domain_;
+    bool is_finished_ = false;
 };
 
 } // namespace abacus

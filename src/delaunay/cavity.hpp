@@ -14,7 +14,8 @@
 // If the mesh is constrained, the cavity ends at fixed edges, and the search has to begin at the
 // triangle that contains the point. What lies beyond a fixed edge is loaded all the same, since its
 // link changes. Only an edge on which the point lies is crossed: it is split, and both halves are
-// fixed. The rest of the rim keeps what is fixed.
+// fixed. The rest of the rim keeps what is fixed. A new triangle is in the region of the one that was
+// on its edge of the rim.
 //
 // In space the search may return to a tetrahedron, so it marks what it has seen, and numbers the
 // corners. It goes breadth first, and tests the tetrahedra beyond several facets together. No
@@ -107,7 +108,9 @@ private:
     void look_beyond(Edge &edge, Link inner, const SeenPoint<2> &end, const Point<2> &p);
     /// Whether p lies on a fixed edge, which is to be split then.
     [[gnu::noinline]] bool splits(Link edge, const Point<2> &p);
-    /// Fixes the edges of the new triangles.
+    /// Keeps the regions of the triangles inside, along the rim.
+    void note_regions();
+    /// Fixes the edges of the new triangles, and puts these into the regions that were there.
     void fix_edges();
     /// The test where in_circle() is uncertain: above all for ghosts, whose point at infinity has
     /// no coordinates. It is a separate function to keep the loop around the test small.
@@ -122,6 +125,7 @@ private:
     Arena<Edge> stack_;
     Arena<RimEdge> rim_; // with the first one repeated at the end, while it is filled
     Arena<Handle> created_;
+    Arena<RegionNumber> regions_;      // along the rim, of a constrained mesh
     std::array<VertexIndex, 2> split_; // the ends of the fixed edge that is split, or none
     Fixed split_kind_ = Fixed::no;
 };

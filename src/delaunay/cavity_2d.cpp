@@ -6,7 +6,8 @@
 namespace abacus {
 
 Cavity<2>::Cavity(Delaunay<2> &mesh)
-    : CavityInside(mesh), stack_(cache_.host()), rim_(cache_.host()), created_(cache_.host()) {}
+    : CavityInside(mesh), stack_(cache_.host()), rim_(cache_.host()), created_(cache_.host()),
+      regions_(cache_.host()) {}
 
 void Cavity<2>::find(const Point<2> &p, Handle first) {
     if (mesh_.is_constrained)
@@ -94,6 +95,8 @@ Cavity<2>::Edge *Cavity<2>::deepen(const Edge *top) {
 }
 
 void Cavity<2>::fill(VertexIndex v) {
+    if (mesh_.is_constrained) [[unlikely]]
+        note_regions();
     const std::int64_t ghosts = hollow_out();
     const std::size_t n = rim_.size();
     rim_.push_back(rim_[0]); // closes the cycle
@@ -122,10 +125,19 @@ void Cavity<2>::fill(VertexIndex v) {
     log_created(created_, n);
 }
 
+void Cavity<2>::note_regions() {
+    regions_.clear();
+    for (const RimEdge &edge : rim_) {
+        const Link inner = cache_.simplex(link_simplex(edge.outer)).link[link_facet(edge.outer)];
+        regions_.push_back(cache_.region(link_simplex(inner)));
+    }
+}
+
 void Cavity<2>::fix_edges() {
     Handle previous = created_[created_.size() - 2];
     for (std::size_t i = 0; i + 1 < created_.size(); ++i) {
         const Handle h = created_[i];
+        if (regions_[i] != no_region) cache_.set_region(h, regions_[i]);
         if (const Fixed how = cache_.fixed(rim_[i].outer); how != Fixed::no)
             cache_.set_fixed(make_link(h, 2), how);
         if (rim_[i].begin == split_[0] || rim_[i].begin == split_[1]) {

@@ -16,6 +16,7 @@ public:
     using Pieces::fill_funnel;
     using Pieces::fill_star;
     using Pieces::join;
+    using Pieces::set_region;
     using Pieces::Side;
     using Pieces::unknown;
 

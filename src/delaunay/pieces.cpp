@@ -11,7 +11,7 @@ namespace abacus {
 Pieces::Side Pieces::add(const std::array<VertexIndex, 3> &corners,
                          const std::array<Side, 3> &beyond) {
     const std::size_t n = pieces_.size();
-    pieces_.push_back({corners, beyond, {}});
+    pieces_.push_back({corners, beyond, FixedFacets<2>::from_bits(0, region_)});
     for (int i = 0; i < 3; ++i) join(side(n, i), beyond[i], Fixed::no);
     return side(n, 1);
 }
@@ -165,8 +165,8 @@ void Pieces::flip(Side s) {
     const Piece t = pieces_[number_t], u = pieces_[number_u];
     const int c = facet_of(s), a = (c + 1) % 3, b = (c + 2) % 3;                   // corners of t
     const int d = facet_of(other), beside_a = (d + 1) % 3, beside_b = (d + 2) % 3; // facets of u
-    const auto both = [](Fixed zeroth, Fixed second) {
-        FixedFacets<2> facets;
+    const auto both = [&](Fixed zeroth, Fixed second) {
+        FixedFacets<2> facets = FixedFacets<2>::from_bits(0, t.fixed.region());
         facets.set(0, zeroth);
         facets.set(2, second);
         return facets;

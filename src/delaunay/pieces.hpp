@@ -44,6 +44,7 @@ public:
     void clear() {
         pieces_.clear();
         outside_.clear();
+        region_ = no_region;
     }
     std::size_t size() const { return pieces_.size(); }
     const Piece &operator[](std::size_t n) const { return pieces_[n]; }
@@ -57,6 +58,8 @@ public:
     static std::uint32_t piece_of(Side s) { return number(s) >> 2; }
     static int facet_of(Side s) { return static_cast<int>(number(s) & 3); }
 
+    /// The region of the pieces that are made from now on, but for ghosts.
+    void set_region(RegionNumber region) { region_ = region; }
     /// An edge of a triangle that stays.
     Side outside(Fixed how) {
         outside_.push_back(how);
@@ -112,6 +115,7 @@ private:
     void flip(Side s);
 
     Arena<Piece> pieces_;
+    RegionNumber region_ = no_region;
     Arena<Fixed> outside_;
     Arena<Corner> corners_;
     Arena<Corner> bank_; // the right one of a funnel

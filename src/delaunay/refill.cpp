@@ -28,9 +28,11 @@ void sort_unique(Arena<std::int64_t> &lines) {
 std::size_t Refill::look_at(const Star<2> &star) {
     const Cache<2> &cache = mesh_.cache();
     spokes_.clear();
+    regions_.clear();
     for (std::size_t i = 0; i < star.link().size(); ++i) {
         const Link outer = star.rim()[i].outer,
                    inner = cache.simplex(link_simplex(outer)).link[link_facet(outer)];
+        regions_.push_back(cache.region(link_simplex(inner)));
         const Fixed how = cache.fixed(make_link(link_simplex(inner), (link_facet(inner) + 2) % 3));
         if (how == Fixed::no) continue;
         spokes_.push_back(i);
@@ -93,6 +95,7 @@ Patch::Side Refill::fill_side(const Star<2> &star, std::size_t i, std::size_t j)
     corners_.clear();
     beyond_.clear();
     const std::size_t size = star.link().size();
+    patch_.set_region(regions_[i]);
     bool has_infinity = false;
     for (std::size_t n = i; n != j; n = (n + 1) % size) {
         take(star, n);
@@ -116,6 +119,7 @@ std::size_t Refill::fill(const Star<2> &star) {
         patch_.join(one, other, kind_);
         return patch_.finish();
     }
+    patch_.set_region(*std::max_element(regions_.begin(), regions_.end())); // ghosts are in none
     corners_.clear();
     beyond_.clear();
     for (std::size_t i = 0; i < star.link().size(); ++i) take(star, i);

@@ -13,7 +13,7 @@ class Refill {
 public:
     explicit Refill(Delaunay<2> &mesh)
         : mesh_(mesh), patch_(mesh), spokes_(mesh.cache().host()), corners_(mesh.cache().host()),
-          beyond_(mesh.cache().host()) {}
+          regions_(mesh.cache().host()), beyond_(mesh.cache().host()) {}
 
     /// Looks at a star, and says how many edges of its vertex are fixed.
     std::size_t look_at(const Star<2> &star);
@@ -35,6 +35,7 @@ private:
     Arena<std::size_t> spokes_; // places in the link
     Fixed kind_ = Fixed::no;    // of the last
     Arena<VertexIndex> corners_;
+    Arena<RegionNumber> regions_; // of the star's simplices, in the order of its rim
     Arena<Patch::Side> beyond_;
 };
 

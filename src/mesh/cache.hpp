@@ -38,6 +38,8 @@
 //   4. A vertex of a visible facet is shared: a page that comes in finds it by its coordinates.
 //   5. The point at infinity is the last corner of a ghost, and no other one's.
 //   6. A facet is fixed on both sides or on none; none at the point at infinity is.
+//   7. Simplices on both sides of a facet that is not fixed are in the same region, or in none. No
+//      ghost is in one.
 #pragma once
 
 #include "blocks/block_cache.hpp"
@@ -95,7 +97,7 @@ public:
         return is_absent(link) ? miss(h, facet) : link;
     }
 
-    // ---- Fixed facets, of a constrained mesh in the plane -----------------------------
+    // ---- Fixed facets and regions, of a constrained mesh in the plane ------------------
 
     FixedFacets<D> fixed(Handle h) const {
         return static_cast<std::size_t>(h) < fixed_.size() ? fixed_[h] : FixedFacets<D>{};
@@ -105,6 +107,12 @@ public:
     }
     Fixed fixed(Link facet) const { return fixed(link_simplex(facet))[link_facet(facet)]; }
     void set_fixed(Handle h, FixedFacets<D> facets);
+    RegionNumber region(Handle h) const { return fixed(h).region(); }
+    void set_region(Handle h, RegionNumber region) {
+        FixedFacets<D> facets = fixed(h);
+        facets.set_region(region);
+        set_fixed(h, facets);
+    }
     /// One side of it.
     void set_fixed(Link facet, Fixed how) {
         FixedFacets<D> facets = fixed(link_simplex(facet));
@@ -291,7 +299,7 @@ private:
         if (static_cast<std::size_t>(h) < fixed_.size()) [[unlikely]]
             fixed_[h] = {};
     }
-    /// Of the slots of a block; null if none is fixed.
+    /// Of the slots of a block; null if none is fixed or in a region.
     const FixedFacets<D> *fixed_of(Handle first) const {
         return static_cast<std::size_t>(first) < fixed_.size() ? &fixed_[first] : nullptr;
     }
@@ -322,7 +330,7 @@ private:
     CacheOptions options_;
     VertexHeap<D> vertices_;
     VisibleFacets<D> visible_;
-    /// Of all slots, if a facet is or was fixed; none of free ones.
+    /// Of all slots, if there is or was anything in it; nothing of free ones.
     Arena<FixedFacets<D>, Handle> fixed_;
 
     // Page translation: reused from page to page.

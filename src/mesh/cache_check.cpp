@@ -33,6 +33,8 @@ template <int D> const char *Cache<D>::check_links(Handle h) const {
         if (a.vertex != b.vertex) return "a link leads to another facet";
         if (a.odd == b.odd) return "neighbours have the same orientation";
         if (fixed(here) != fixed(there)) return "an edge is fixed on one side only";
+        if (!is_fixed(here) && region(link_simplex(here)) != region(link_simplex(there)))
+            return "a region ends at an edge that is not fixed";
     }
     return nullptr;
 }

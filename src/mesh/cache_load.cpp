@@ -141,7 +141,7 @@ template <int D> void Cache<D>::load_simplices(Handle first) {
 
 /// Facets on the border are not linked yet.
 template <int D> void Cache<D>::load_fixed(Handle first) {
-    if (!view_.has_fixed()) return;
+    if (!view_.is_lined()) return;
     for (int s = 0; s < view_.simplices(); ++s) {
         const FixedFacets<D> facets = view_.fixed(s);
         if (!facets.is_sound()) throw_corrupted("An edge is soft that is not fixed.");

@@ -36,7 +36,8 @@ void PageView<D>::read_header(const unsigned char *bytes, std::size_t size, int 
                         ", not " + std::to_string(PageHeader::expected_version) + ".",
                     "Build the mesh anew with this version of the extension.");
     require(header_.dimension == D && header_.attributes == attributes &&
-                header_.fixed <= (D == 2 ? 2 : 0),
+                (header_.lined & ~PageHeader::has_regions) <= 2 &&
+                (D == 2 || header_.lined == 0),
             "A simplex page belongs to another kind of mesh.");
     require(header_.simplices <= block_slots<D> && header_.vertices <= page_vertices<D> &&
                 header_.links <= header_.simplices * (D + 1) && header_.codes <= header_.links,
@@ -93,7 +94,9 @@ void PageView<D>::open(const unsigned char *bytes, std::size_t size, int attribu
     });
     has_parts_ = parts_.is_not_zero();
     link_vertices_ = fields(l, std::bit_width(v + header_.codes));
-    fixed_ = fields(has_fixed() ? s : 0, header_.fixed * FixedFacets<D>::width);
+    fixed_ = fields(fixed_width() != 0 ? s : 0, fixed_width());
+    if (has_regions())
+        require(regions_.read_head(at, end) && regions_.read_deltas(at, end, s), wrong_size);
     require(at == end, wrong_size);
 }
 
@@ -110,6 +113,15 @@ template <int D> void PageView<D>::read_rest() {
                 "A simplex page has a link to a code that it does not have.");
     read_points();
     for (int i = 0; i < patches(); ++i) read_patch(i);
+    check_regions();
+}
+
+template <int D> void PageView<D>::check_regions() const {
+    if (!has_regions()) return;
+    require(regions_.is_not_zero(), "A simplex page has regions, but none of its simplices is in one.");
+    for (int s = 0; s < simplices(); ++s)
+        require(regions_[s] <= most_regions && (regions_[s] == no_region || !is_ghost(s)),
+                "A simplex page has an impossible number of a region.");
 }
 
 template <int D> void PageView<D>::read_points() {

@@ -13,6 +13,8 @@
 //               neighbour's key; beyond the vertices come the codes
 //   fixed       if a facet is fixed, D + 1 bits a simplex: which of its facets are; if one is soft,
 //               D + 1 more: which of these are soft
+//   regions     if a simplex is in a region, a column, head and deltas together: the number of
+//               each simplex's region
 //   checksum    8 bytes, XXH3 of all before
 //
 // Simplices come in trees, each breadth first across facets (cf. Rossignac's Edgebreaker,
@@ -48,12 +50,14 @@ namespace abacus {
 struct PageHeader {
     static constexpr std::uint32_t expected_magic = 0x50534241; // "ABSP"
     static constexpr std::uint8_t expected_version = 3;
+    static constexpr unsigned has_regions = 4;
 
     std::uint32_t magic;
     std::uint8_t version;
     std::uint8_t dimension;
     std::uint8_t attributes;
-    std::uint8_t fixed; // 1: some facets are fixed; 2: and some of these are soft
+    /// 1: some facets are fixed; 2: and some of these are soft. 4 is added if there are regions.
+    std::uint8_t lined;
     std::uint16_t simplices;
     std::uint16_t vertices;
     std::uint16_t links;
@@ -162,9 +166,16 @@ public:
     /// Vertex number of a corner; vertices() for the point at infinity.
     int corner(int simplex, int i) const { return corners(simplex)[i]; }
     const Lanes &corners(int simplex) const { return corners_[simplex]; }
-    bool has_fixed() const { return header_.fixed != 0; }
+    /// Whether a facet is fixed or a simplex in a region.
+    bool is_lined() const { return header_.lined != 0; }
     FixedFacets<D> fixed(int simplex) const {
-        return FixedFacets<D>::from_bits(has_fixed() ? static_cast<unsigned>(fixed_[simplex]) : 0u);
+        const unsigned facets = fixed_width() != 0 ? static_cast<unsigned>(fixed_[simplex]) : 0u;
+        return FixedFacets<D>::from_bits(facets, region(simplex));
+    }
+    bool has_regions() const { return (header_.lined & PageHeader::has_regions) != 0; }
+    /// Its number; checked by read_rest() alone.
+    RegionNumber region(int simplex) const {
+        return has_regions() ? static_cast<RegionNumber>(regions_[simplex]) : no_region;
     }
     bool is_ghost(int simplex) const { return corner(simplex, D) == vertices(); }
 
@@ -188,7 +199,11 @@ private:
     void read_header(const unsigned char *bytes, std::size_t size, int attributes);
     /// Takes the patches off the bytes.
     void read_patches(const unsigned char *&at, const unsigned char *end);
+    int fixed_width() const {
+        return (header_.lined & ~PageHeader::has_regions) * FixedFacets<D>::width;
+    }
     void read_points();
+    void check_regions() const;
     /// Reads the corners of a tree's first simplex; returns how many vertices are known then.
     std::size_t read_root(int simplex, std::size_t named, std::size_t fresh);
 
@@ -197,7 +212,7 @@ private:
     std::array<Column, D> axes_;
     Column ids_;
     std::array<Column, ABACUS_MAX_PAGE_ATTRIBUTES> attributes_;
-    Column codes_, parts_;
+    Column codes_, parts_, regions_;
     BitFields link_vertices_;
     bool has_parts_;
     BitFields steps_, numbers_, fixed_;

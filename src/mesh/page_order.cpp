@@ -201,7 +201,10 @@ void PageWriter<D>::order(const Simplex<D> *slots, std::uint32_t end, Handle fir
     border.resize(static_cast<std::size_t>(tour.border_end() - border.data()));
     links_.resize(border.size());
     fixed_.clear();
-    if (fixed != nullptr) gather_fixed(slots, fixed);
+    regions_.clear();
+    if (fixed == nullptr) return;
+    gather_fixed(slots, fixed);
+    gather_regions(fixed);
 }
 
 } // namespace abacus

@@ -57,6 +57,19 @@ void PageWriter<D>::gather_fixed(const Simplex<D> *slots, const FixedFacets<D> *
     }
 }
 
+template <int D> void PageWriter<D>::gather_regions(const FixedFacets<D> *fixed) {
+    bool is_any = false;
+    regions_.resize(simplices_);
+    for (std::size_t s = 0; s < simplices_; ++s) {
+        regions_[s] = fixed[order_[s].slot].region();
+        is_any = is_any || regions_[s] != no_region;
+    }
+    if (is_any)
+        regions_plan_ = {regions_.data(), simplices_};
+    else
+        regions_.clear();
+}
+
 template <int D> void PageWriter<D>::bound_patches() {
     prefixes_.resize(vertices_);
     for (std::size_t axis = 0; axis < D; ++axis) {
@@ -132,6 +145,7 @@ template <int D> std::size_t PageWriter<D>::planned_size() const {
     return size + foreign_plan_.size() + parts_plan_.size() +
            bits_to_bytes(links_.size() * std::bit_width(vertices_ + foreign_.size())) +
            bits_to_bytes(simplices_ * (D + 1)) + bits_to_bytes(fixed_.size() * fixed_width_) +
+           (regions_.empty() ? 0 : regions_plan_.size()) +
            bits_to_bytes(named_.size() * std::bit_width(vertices_));
 }
 
@@ -141,8 +155,9 @@ template <int D> void PageWriter<D>::write(const Key &lower, const Key &upper) {
     header.version = PageHeader::expected_version;
     header.dimension = D;
     header.attributes = static_cast<std::uint8_t>(attributes_);
-    header.fixed =
-        static_cast<std::uint8_t>(fixed_.empty() ? 0 : fixed_width_ / FixedFacets<D>::width);
+    header.lined = static_cast<std::uint8_t>(
+        (fixed_.empty() ? 0 : fixed_width_ / FixedFacets<D>::width) |
+        (regions_.empty() ? 0u : PageHeader::has_regions));
     header.simplices = static_cast<std::uint16_t>(simplices_);
     header.vertices = static_cast<std::uint16_t>(vertices_);
     header.links = static_cast<std::uint16_t>(links_.size());
@@ -174,6 +189,8 @@ template <int D> void PageWriter<D>::write(const Key &lower, const Key &upper) {
     at = parts_plan_.write_deltas(parts_.data(), at);
     put(link_vertices_, std::bit_width(vertices_ + foreign_.size()));
     put(fixed_, fixed_width_);
+    if (!regions_.empty())
+        regions_plan_.write_deltas(regions_.data(), regions_plan_.write_head(at));
     seal_page(page_, size_);
 }
 

@@ -23,11 +23,12 @@ public:
     explicit PageWriter(const Host &host)
         : order_(host), patches_(host), prefixes_(host), reached_(host), cut_(host), corners_(host),
           named_(host), links_(host), columns_(host), plans_(host), foreign_(host), parts_(host),
-          link_vertices_(host), fixed_(host), codes_(host), coded_(host), index_(host) {}
+          link_vertices_(host), fixed_(host), regions_(host), codes_(host), coded_(host), index_(host) {}
 
     /// Begins a page of the simplices in the slots [slots, end), whose handles begin with
     /// `first`. Sets `numbered` to the page's vertices and `border` to the inner sides of its
-    /// border, both in the page's order. `fixed` is of the slots; null if no facet is fixed.
+    /// border, both in the page's order. `fixed` is of the slots; null if no facet is fixed
+    /// and no simplex in a region.
     void order(const Simplex<D> *slots, std::uint32_t end, Handle first, Vertices &vertices,
                Numbering &numbered, Arena<Link> &border, const FixedFacets<D> *fixed = nullptr);
     /// So many links follow, where facets are untold: in the order of those that turn out to
@@ -52,6 +53,7 @@ private:
     void gather(const Vertices &vertices, const Numbering &numbered);
     /// In the page's order.
     void gather_fixed(const Simplex<D> *slots, const FixedFacets<D> *fixed);
+    void gather_regions(const FixedFacets<D> *fixed);
     void bound_patches();
     void code_links(const Vertices &vertices, const Numbering &numbered, const bool *on_border);
     std::size_t planned_size() const;
@@ -83,6 +85,8 @@ private:
     Arena<std::uint16_t> link_vertices_;
     Arena<std::uint8_t> fixed_;  // bits of the simplices; empty if no facet is fixed
     int fixed_width_ = 0;        // of each
+    Arena<std::uint64_t> regions_; // of the simplices; empty if none is in one
+    ColumnPlan regions_plan_;
     Arena<std::uint64_t> codes_; // that index_ knows
     Arena<std::uint16_t> coded_; // their numbers
     Arena<std::uint16_t> index_; // hash table of codes_

@@ -18,6 +18,7 @@
 #include "pg/lines/new_lines.h"
 #include "pg/mesh/lines_table.h"
 #include "pg/mesh/mesh_lines.h"
+#include "pg/mesh/regions_table.h"
 #include "pg/port/port.h"
 
 static Relation
@@ -83,6 +84,8 @@ new_lines_delete(Change *change, const char *table, const char *ids, int64 *soft
 	*soft = DatumGetInt64(counts[1]);
 	if (DatumGetInt64(counts[0]) == 0)
 		return 0;
+	if (change->writer.header->facts.census.regions > 0)
+		regions_table_refuse_lines(mesh_of(change), ids);
 	mesh_lines_open(&change->writer, &change->freed);
 	mesh_lines_add(change->writer.host, change->freed,
 				   psprintf("SELECT l.line, l.x, l.y, l.part, l.kind OPERATOR(pg_catalog.=) 'soft' FROM %s AS l WHERE l.line IN (%s) "

@@ -8,7 +8,6 @@
  */
 #include "postgres.h"
 
-#include "access/xact.h"
 #include "catalog/pg_class.h"
 #include "commands/defrem.h"
 #include "miscadmin.h"
@@ -17,7 +16,7 @@
 #include "utils/lsyscache.h"
 
 #include "pg/mesh/lines_table.h"
-#include "pg/mesh/new_table.h"
+#include "pg/mesh/side_table.h"
 #include "pg/port/port.h"
 
 /* The name of the table in SQL, with its schema. */
@@ -47,41 +46,6 @@ lines_table_segments_at(Oid table)
 	return psprintf("%s UNION ALL %s", psprintf(half, name, "<", "DESC"), psprintf(half, name, ">", "ASC"));
 }
 
-static void
-check_may_make(Relation mesh, const char *name)
-{
-	const char *mesh_name = RelationGetRelationName(mesh);
-
-	if (!object_ownercheck(RelationRelationId, RelationGetRelid(mesh), GetUserId()))
-		ereport(ERROR,
-				(errcode(ERRCODE_INSUFFICIENT_PRIVILEGE),
-				 errmsg("must be owner of mesh \"%s\" to give it its first lines", mesh_name),
-				 errdetail("They make the table \"%s\".", name),
-				 errhint("Its owner can call abacus_constrain(), and grant privileges on that table.")));
-	if (strlen(name) >= NAMEDATALEN)
-		ereport(ERROR,
-				(errcode(ERRCODE_NAME_TOO_LONG),
-				 errmsg("name of mesh \"%s\" is too long for a mesh with lines", mesh_name),
-				 errdetail("The table \"%s\" would belong to it; names have at most %d bytes.", name,
-						   NAMEDATALEN - 1),
-				 errhint("Rename the mesh and its vertex table.")));
-	new_table_check_name(RelationGetNamespace(mesh), name);
-}
-
-/* Runs CREATE as the owner of the mesh, who will own the table as well. */
-static void
-create(Relation mesh, const char *command, const char *name)
-{
-	Oid			user;
-	int			security;
-
-	GetUserIdAndSecContext(&user, &security);
-	if (mesh->rd_rel->relowner != user)
-		SetUserIdAndSecContext(mesh->rd_rel->relowner, security | SECURITY_LOCAL_USERID_CHANGE);
-	new_table_create(command, name);
-	SetUserIdAndSecContext(user, security);
-}
-
 /*
  * The table of the lines of a mesh that gets lines. If there is none, makes it, without the index
  * on places.
@@ -89,32 +53,16 @@ create(Relation mesh, const char *command, const char *name)
 Oid
 lines_table_make(Relation mesh, bool *is_new)
 {
-	Oid			schema = RelationGetNamespace(mesh);
+	static const NewSideTable lines = {
+		.suffix = LINES_TABLE_SUFFIX,.type = LINE_POINT_TYPE,.columns = LINE_POINT_COLUMNS,
+		.options = "point WITH OPTIONS NOT NULL, x WITH OPTIONS NOT NULL, y WITH OPTIONS NOT NULL, "
+		"kind WITH OPTIONS NOT NULL, PRIMARY KEY (line, position)",
+		.contents = "lines",.maker = "abacus_constrain()",.reader = "abacus_lines()"
+	};
 	Oid			table = mesh_lines_table(mesh, MESH_WRITE);
-	char	   *name;
-	Oid			type_schema;
-	Oid			row;
 
 	*is_new = !OidIsValid(table);
-	if (!*is_new)
-		return table;
-	name = psprintf("%s" LINES_TABLE_SUFFIX, RelationGetRelationName(mesh));
-	check_may_make(mesh, name);
-	type_schema = get_rel_namespace(get_typ_typrelid(mesh->rd_rel->reloftype));
-	row = get_relname_relid(LINE_POINT_TYPE, type_schema);
-	create(mesh,
-		   psprintf("CREATE %sTABLE %s OF %s (point WITH OPTIONS NOT NULL, x WITH OPTIONS NOT NULL, "
-					"y WITH OPTIONS NOT NULL, kind WITH OPTIONS NOT NULL, PRIMARY KEY (line, position)) "
-					"USING heap",
-					mesh->rd_rel->relpersistence == RELPERSISTENCE_UNLOGGED ? "UNLOGGED " : "",
-					quote_qualified_identifier(get_namespace_name(schema), name),
-					quote_qualified_identifier(get_namespace_name(type_schema), LINE_POINT_TYPE)),
-		   name);
-	table = new_table_id(schema, name);
-	new_table_describe(table, "lines of a mesh: see abacus_lines()", row, LINE_POINT_COLUMNS);
-	mesh_bind_table(RelationGetRelid(mesh), table);
-	CommandCounterIncrement();
-	return table;
+	return *is_new ? side_table_make(mesh, &lines) : table;
 }
 
 /* Makes the index on places: of a new table when it has its first rows, which is faster. */
@@ -123,7 +71,7 @@ lines_table_index(Relation mesh)
 {
 	Oid			table = mesh_lines_table(mesh, MESH_WRITE);
 
-	create(mesh, psprintf("CREATE INDEX ON %s (x, y)", lines_table_name(table)), get_rel_name(table));
+	side_table_create(mesh, psprintf("CREATE INDEX ON %s (x, y)", lines_table_name(table)), get_rel_name(table));
 }
 
 /*
@@ -138,7 +86,7 @@ lines_table_index_made(Relation mesh)
 
 	if (object_ownercheck(RelationRelationId, table, GetUserId()) &&
 		!OidIsValid(get_relname_relid(name, get_rel_namespace(table))))
-		create(mesh, psprintf("CREATE INDEX %s ON %s (point) WHERE made", quote_identifier(name),
+		side_table_create(mesh, psprintf("CREATE INDEX %s ON %s (point) WHERE made", quote_identifier(name),
 							  lines_table_name(table)), get_rel_name(table));
 }
 

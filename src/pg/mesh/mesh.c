@@ -10,7 +10,8 @@
  * the entry again.
  *
  * A mesh that has had lines has a third table, of the type abacus_line_point, which is
- * bound and found in the same way. Its name ends in _lines.
+ * bound and found in the same way. Its name ends in _lines. One that has had regions has a fourth, of
+ * the type abacus_region_part, whose name ends in _regions.
  */
 #include "postgres.h"
 
@@ -81,6 +82,7 @@ static void (*on_restored) (Relation mesh) = NULL;
 static Oid	simplex_row_type = InvalidOid;
 static Oid	vertex_row_type = InvalidOid;
 static Oid	line_row_type = InvalidOid;
+static Oid	region_row_type = InvalidOid;
 
 static bool
 is_table_of(Oid relid, const char *name, Oid *known)
@@ -113,6 +115,12 @@ static bool
 is_lines_table(Oid relid)
 {
 	return is_table_of(relid, LINE_POINT_TYPE, &line_row_type);
+}
+
+static bool
+is_regions_table(Oid relid)
+{
+	return is_table_of(relid, REGION_PART_TYPE, &region_row_type);
 }
 
 /* Opens the table of a mesh under the given lock, or says why it cannot be used. */
@@ -201,10 +209,12 @@ typedef struct SideTable
 {
 	const char *suffix;
 	bool		(*is) (Oid);
+	const char *what;			/* for messages */
 } SideTable;
 
-static const SideTable vertex_side = {VERTEX_TABLE_SUFFIX, is_vertex_table};
-static const SideTable lines_side = {LINES_TABLE_SUFFIX, is_lines_table};
+static const SideTable vertex_side = {VERTEX_TABLE_SUFFIX, is_vertex_table, "vertex table"};
+static const SideTable lines_side = {LINES_TABLE_SUFFIX, is_lines_table, "table of lines"};
+static const SideTable regions_side = {REGIONS_TABLE_SUFFIX, is_regions_table, "table of regions"};
 
 /* Such a table of a mesh, found by its name alone; InvalidOid if there is none. */
 static Oid
@@ -323,6 +333,24 @@ may_bind(Relation mesh, Oid relid, MeshAccess access)
 		object_ownercheck(RelationRelationId, RelationGetRelid(mesh), GetUserId());
 }
 
+/* A table of rows, not pages, that the mesh may have, locked and checked. */
+static Oid
+row_table(Relation mesh, const SideTable *side, MeshAccess access)
+{
+	bool		bound;
+	Relation	rel = open_side_table(mesh, side, access, &bound);
+	Oid			relid;
+
+	if (rel == NULL)
+		return InvalidOid;
+	mesh_check_rows_access(rel, access, mesh, side->what);
+	relid = RelationGetRelid(rel);
+	if (!bound && may_bind(mesh, relid, access))
+		mesh_bind_table(RelationGetRelid(mesh), relid);
+	relation_close(rel, NoLock);
+	return relid;
+}
+
 /*
  * The table of the mesh's lines, locked and checked; InvalidOid if there is none. A writer binds it
  * if it is not bound.
@@ -330,18 +358,14 @@ may_bind(Relation mesh, Oid relid, MeshAccess access)
 Oid
 mesh_lines_table(Relation mesh, MeshAccess access)
 {
-	bool		bound;
-	Relation	rel = open_side_table(mesh, &lines_side, access, &bound);
-	Oid			relid;
+	return row_table(mesh, &lines_side, access);
+}
 
-	if (rel == NULL)
-		return InvalidOid;
-	mesh_check_lines_access(rel, access, mesh);
-	relid = RelationGetRelid(rel);
-	if (!bound && may_bind(mesh, relid, access))
-		mesh_bind_table(RelationGetRelid(mesh), relid);
-	relation_close(rel, NoLock);
-	return relid;
+/* The same for the table of its regions. */
+Oid
+mesh_regions_table(Relation mesh, MeshAccess access)
+{
+	return row_table(mesh, &regions_side, access);
 }
 
 /* The same for the table of its vertex pages, which must be there. */
@@ -366,6 +390,7 @@ mesh_vertex_table(Relation mesh, MeshAccess access)
 	{
 		mesh_bind_table(RelationGetRelid(mesh), relid);
 		(void) mesh_lines_table(mesh, access);
+		(void) mesh_regions_table(mesh, access);
 		if (on_restored != NULL)
 			on_restored(mesh);
 	}

@@ -1,6 +1,6 @@
 /*
- * mesh.h: the representation of a mesh in the database: two typed tables, and a third one if it has
- * had lines; found, locked and checked for privileges.
+ * mesh.h: the representation of a mesh in the database: two typed tables, and others if it has had lines
+ * or regions; found, locked and checked for privileges.
  */
 #ifndef ABACUS_MESH_H
 #define ABACUS_MESH_H
@@ -14,6 +14,9 @@
 #define LINE_POINT_TYPE "abacus_line_point"
 #define LINE_POINT_COLUMNS 8
 #define LINES_TABLE_SUFFIX "_lines"
+#define REGION_PART_TYPE "abacus_region_part"
+#define REGION_PART_COLUMNS 6
+#define REGIONS_TABLE_SUFFIX "_regions"
 
 /* What a caller intends to do, which decides the lock and the privileges it needs. */
 typedef enum MeshAccess
@@ -42,6 +45,7 @@ extern Oid	mesh_vertex_table(Relation mesh, MeshAccess access);
 extern void mesh_bind_object(Oid class, Oid object, Oid mesh);
 extern void mesh_bind_table(Oid mesh, Oid table);
 extern Oid	mesh_lines_table(Relation mesh, MeshAccess access);
+extern Oid	mesh_regions_table(Relation mesh, MeshAccess access);
 extern Oid	mesh_of_trigger(Oid trigger);
 extern void mesh_bind_trigger(Oid mesh, Oid trigger);
 extern void mesh_tell_of_restored(void (*tell) (Relation mesh));

@@ -143,16 +143,15 @@ mesh_check_access(Relation rel, MeshAccess access, Relation mesh)
 }
 
 /*
- * The same for the table of the lines. Its rows are read and written by SQL, so PostgreSQL checks
- * all else.
+ * The same for a table of lines or regions, `side` in words. Its rows are read and written by SQL, so
+ * PostgreSQL checks all else.
  */
 void
-mesh_check_lines_access(Relation rel, MeshAccess access, Relation mesh)
+mesh_check_rows_access(Relation rel, MeshAccess access, Relation mesh, const char *side)
 {
 	if (access != MESH_MOVE)
-		check_privileges(rel, access, mesh, "table of lines",
-						 "Grant privileges on all three tables of a mesh with lines, and give them "
-						 "the same owner.");
+		check_privileges(rel, access, mesh, side,
+						 "Grant privileges on all tables of a mesh, and give them the same owner.");
 	if (RELATION_IS_OTHER_TEMP(rel))
 		ereport(ERROR,
 				(errcode(ERRCODE_FEATURE_NOT_SUPPORTED),

@@ -7,6 +7,7 @@
 #include "pg/mesh/mesh.h"
 
 extern void mesh_check_access(Relation rel, MeshAccess access, Relation mesh);
-extern void mesh_check_lines_access(Relation rel, MeshAccess access, Relation mesh);
+extern void mesh_check_rows_access(Relation rel, MeshAccess access, Relation mesh,
+								   const char *side);
 
 #endif

@@ -19,6 +19,7 @@
 #include "pg/mesh/line_crossings.h"
 #include "pg/mesh/lines_table.h"
 #include "pg/mesh/mesh_lines.h"
+#include "pg/mesh/mesh_regions.h"
 #include "pg/port/port.h"
 
 #define ROWS_A_FETCH 1024
@@ -234,8 +235,8 @@ is_vertex(void *context, const double *place)
  * Fixes the edges of segments. All lines are in their table, so if some cross, the error can say
  * which. Only then does anything look for them.
  */
-void
-mesh_lines_fix(Writer *writer, abacus_build *build, abacus_segments *segments)
+static void
+fix(Writer *writer, abacus_build *build, abacus_segments *segments)
 {
 	Host	   *host = writer->host;
 	MeshBuild	changed = {host, build};
@@ -246,6 +247,14 @@ mesh_lines_fix(Writer *writer, abacus_build *build, abacus_segments *segments)
 	if (status == ABACUS_ERROR && host->failure.kind == ABACUS_ERROR_CROSSING)
 		line_crossings_refuse(writer, is_vertex, &changed);
 	host_leave(host, status);
+}
+
+/* The same for lines that come to those that are there. */
+void
+mesh_lines_fix(Writer *writer, abacus_build *build, abacus_segments *segments)
+{
+	fix(writer, build, segments);
+	mesh_regions_follow(writer, build, segments);
 }
 
 /* Whether lines wait that could be fixed. */
@@ -273,7 +282,8 @@ mesh_lines_fix_waiting(Writer *writer, abacus_build *build, abacus_segments **se
 				   psprintf("SELECT line, x, y, part, kind OPERATOR(pg_catalog.=) 'soft' FROM %s ORDER BY line, position",
 							lines_table_name(lines_table_require(mesh_of(host), MESH_WRITE))));
 	SPI_finish();
-	mesh_lines_fix(writer, build, *segments);
+	fix(writer, build, *segments);
+	mesh_regions_renew(writer, build);
 	abacus_segments_close(*segments);
 	*segments = NULL;
 	census->lines_wait = 0;

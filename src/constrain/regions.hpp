@@ -1,0 +1,68 @@
+// Regions of a mesh in the plane: their triangles found from outlines and seeds.
+//
+// Of outlines, the edges with the inside on their left are found (outline_sides.hpp). The triangles
+// there are in the region, those on the right are marked as outside, and the rest is flooded. Where a
+// triangle on the right is in another region there is no room for a mark, and the edge is kept
+// (touching_edges.hpp).
+#pragma once
+
+#include "constrain/outline_sides.hpp"
+#include "constrain/region_flood.hpp"
+#include "constrain/region_parts.hpp"
+#include "traverse/straight.hpp"
+
+namespace abacus {
+
+class Regions {
+public:
+    Regions(Delaunay<2> &mesh, std::size_t memory);
+
+    /// Puts triangles into their regions; false, and `fault` says why, if it is impossible.
+    bool fill(RegionParts &parts, abacus_region_fault &fault);
+    /// Takes all triangles out of the regions that have these parts.
+    void clear(RegionParts &parts);
+    /// Calls visit(region) for the regions on either side of each edge on the segment.
+    template <class Visit> void along(const Point<2> &a, const Point<2> &b, Visit visit) {
+        each_edge(a, b, [&](Link edge) {
+            for (const Handle h : {link_simplex(edge), beyond(edge)})
+                if (const RegionNumber region = cache_.region(h); region != no_region)
+                    visit(region);
+        });
+    }
+
+private:
+    /// Calls visit(edge, from, to) for the edges of the mesh on a segment.
+    template <class Visit> void each_edge(const Point<2> &a, const Point<2> &b, Visit visit) {
+        for (Point<2> at = a; at != b;) {
+            cache_.poll();
+            const Link corner = vertex_at(mesh_, at);
+            const Way way = corner == unset ? Way{} : straight_on(cache_, corner, b);
+            if (!way.is_edge) throw_corrupted("A segment of a line is not an edge of the mesh.");
+            at = cache_.point(cache_.simplex(way.triangle).vertex[(way.corner + 1) % 3]);
+            visit(make_link(way.triangle, (way.corner + 2) % 3));
+            mesh_.finish(mesh_.anywhere);
+        }
+    }
+    Handle beyond(Link edge) {
+        return link_simplex(cache_.cross(link_simplex(edge), link_facet(edge)));
+    }
+
+    bool fill_outlines(RegionParts &parts, abacus_region_fault &fault);
+    /// Begins with the triangles along an edge that has the inside on its left.
+    bool fill_beside(RegionNumber region, const Point<2> &from, const Point<2> &to,
+                     abacus_region_fault &fault);
+    bool flood_outline(RegionNumber region, abacus_region_fault &fault);
+    void unmark_outside();
+    bool fill_seed(RegionNumber region, const Point<2> &p, abacus_region_fault &fault);
+    /// Whether p, in the closure of a triangle, is on a fixed edge.
+    bool is_on_fixed(Handle h, const Point<2> &p);
+
+    Delaunay<2> &mesh_;
+    Cache<2> &cache_;
+    RegionFlood flood_;
+    const std::size_t memory_;
+    std::optional<RecordSpool> edges_; // of a region, with the inside on their left
+    TouchingEdges touching_;           // of a region
+};
+
+} // namespace abacus

@@ -1,0 +1,294 @@
+/*
+ * mesh_regions.c: the regions of a mesh that is being changed, for the core.
+ *
+ * The core knows numbers of regions alone. Names, outlines and seeds are in the table of regions
+ * (regions_table.c). A region is a function of these and of the lines. So where new lines lie within a
+ * region that has seeds, its triangles are found anew.
+ */
+#include "postgres.h"
+
+#include "catalog/pg_type.h"
+#include "executor/spi.h"
+#include "nodes/bitmapset.h"
+#include "utils/builtins.h"
+#include "utils/float.h"
+#include "utils/memutils.h"
+
+#include "pg/base/settings.h"
+#include "pg/host/guard.h"
+#include "pg/mesh/lines_table.h"
+#include "pg/mesh/mesh_regions.h"
+#include "pg/mesh/regions_table.h"
+#include "pg/port/port.h"
+
+#define ROWS_A_FETCH 1024
+
+static Relation
+mesh_of(const Writer *writer)
+{
+	return mesh_pages(writer->host)->simplices.heap;
+}
+
+/* ---- Outlines and seeds ---------------------------------------------------------- */
+
+/* The row before. */
+typedef struct LastCorner
+{
+	bool		is_known;
+	int32		region;
+	int64		line;
+	int64		part;
+	double		at[2];
+} LastCorner;
+
+/* Adds the segment that ends with a row, or its seed. */
+static void
+add_row(Host *host, abacus_region_parts *parts, HeapTuple row, TupleDesc desc, LastCorner *last)
+{
+	LastCorner	corner = {.is_known = true};
+	double		ends[2][2];
+	bool		isnull;
+	bool		is_seed;
+	Datum		part;
+
+	corner.region = DatumGetInt32(SPI_getbinval(row, desc, 1, &isnull));
+	corner.line = DatumGetInt64(SPI_getbinval(row, desc, 2, &is_seed));
+	part = SPI_getbinval(row, desc, 3, &isnull);
+	corner.part = isnull ? 0 : DatumGetInt64(part);
+	for (int axis = 0; axis < 2; axis++)
+		corner.at[axis] = DatumGetFloat8(SPI_getbinval(row, desc, 4 + axis, &isnull));
+	if (is_seed)
+	{
+		host_run(host, abacus_region_parts_seed, parts, (uint32) corner.region, corner.at);
+		return;
+	}
+	if (last->is_known && corner.region == last->region && corner.line == last->line &&
+		corner.part == last->part)
+	{
+		memcpy(ends[0], last->at, sizeof(last->at));
+		memcpy(ends[1], corner.at, sizeof(corner.at));
+		host_run(host, abacus_region_parts_outline, parts, (uint32) corner.region, ends);
+	}
+	*last = corner;
+}
+
+static void
+add_rows(Host *host, abacus_region_parts *parts, const char *query)
+{
+	SPIParseOpenOptions options = {.cursorOptions = CURSOR_OPT_NO_SCROLL};
+	Portal		portal = SPI_cursor_parse_open(NULL, query, &options);
+	LastCorner	last = {false};
+
+	for (;;)
+	{
+		SPI_cursor_fetch(portal, true, ROWS_A_FETCH);
+		if (SPI_processed == 0)
+			break;
+		for (uint64 i = 0; i < SPI_processed; i++)
+			add_row(host, parts, SPI_tuptable->vals[i], SPI_tuptable->tupdesc, &last);
+		SPI_freetuptable(SPI_tuptable);
+	}
+	SPI_cursor_close(portal);
+}
+
+/*
+ * The outlines and seeds of the regions of the mesh for whose rows r `filter` holds, in SQL. The host
+ * owns them until they are closed.
+ */
+abacus_region_parts *
+mesh_regions_read(Writer *writer, const char *filter)
+{
+	Host	   *host = writer->host;
+	Relation	mesh = mesh_of(writer);
+	char	   *regions = regions_table_require(mesh, MESH_WRITE);
+	char	   *lines = lines_table_name(lines_table_require(mesh, MESH_WRITE));
+	abacus_region_parts *parts = NULL;
+
+	host_run(host, abacus_region_parts_open, &host->table, &writer->header->facts,
+			 setting_sort_bytes(), &parts);
+	SPI_connect();
+	add_rows(host, parts,
+			 psprintf("SELECT r.number, l.line, l.part, l.x, l.y FROM %s AS r JOIN %s AS l "
+					  "ON l.line OPERATOR(pg_catalog.=) r.line WHERE %s "
+					  "ORDER BY r.number, l.line, l.position", regions, lines, filter));
+	add_rows(host, parts,
+			 psprintf("SELECT r.number, r.line, NULL::pg_catalog.int8, r.x, r.y FROM %s AS r "
+					  "WHERE r.line IS NULL AND %s", regions, filter));
+	SPI_finish();
+	return parts;
+}
+
+/* ---- Faults ------------------------------------------------------------------------ */
+
+static char *
+place_in_words(const double *place)
+{
+	return psprintf("(%s, %s)", float8out_internal(place[0]), float8out_internal(place[1]));
+}
+
+/* A line of an open outline that has a point at the place, in words for a message. */
+static char *
+open_line(Writer *writer, const abacus_region_fault *fault)
+{
+	Relation	mesh = mesh_of(writer);
+	Oid			types[] = {INT4OID, FLOAT8OID, FLOAT8OID};
+	Datum		arguments[] = {
+		Int32GetDatum((int32) fault->region), Float8GetDatum(fault->place[0]), Float8GetDatum(fault->place[1])
+	};
+	MemoryContext caller = CurrentMemoryContext;
+	char	   *line = NULL;
+
+	SPI_connect();
+	if (SPI_execute_with_args(psprintf("SELECT l.line FROM %s AS r JOIN %s AS l "
+									   "ON l.line OPERATOR(pg_catalog.=) r.line "
+									   "WHERE r.number OPERATOR(pg_catalog.=) $1 "
+									   "AND l.x OPERATOR(pg_catalog.=) $2 AND l.y OPERATOR(pg_catalog.=) $3 "
+									   "ORDER BY l.line LIMIT 1", regions_table_require(mesh, MESH_WRITE),
+									   lines_table_name(lines_table_require(mesh, MESH_WRITE))),
+							  lengthof(types), types, arguments, NULL, false, 1) == SPI_OK_SELECT &&
+		SPI_processed > 0)
+		line = MemoryContextStrdup(caller, SPI_getvalue(SPI_tuptable->vals[0], SPI_tuptable->tupdesc, 1));
+	SPI_finish();
+	return line == NULL ? pstrdup("its lines") : psprintf("line %s", line);
+}
+
+/* Raises the error for regions that cannot be. */
+static void
+refuse(Writer *writer, const abacus_region_fault *fault)
+{
+	Relation	mesh = mesh_of(writer);
+	char	   *region = regions_table_region(mesh, MESH_WRITE, fault->region);
+	char	   *place = place_in_words(fault->place);
+
+	switch (fault->kind)
+	{
+		case ABACUS_REGION_OPEN:
+			ereport(ERROR,
+					(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+					 errmsg("outline of region \"%s\" is not closed", region),
+					 errdetail("An odd number of its edges meets at %s, where %s has a point.", place,
+							   open_line(writer, fault)),
+					 errhint("Let each outline end where it begins, or add the lines that close it.")));
+			break;
+		case ABACUS_REGION_EMPTY:
+			ereport(ERROR,
+					(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+					 errmsg("region \"%s\" is empty", region),
+					 errdetail("Its outlines have each edge an even number of times, so no place is inside.")));
+			break;
+		case ABACUS_REGION_SEED_OUTSIDE:
+			ereport(ERROR,
+					(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+					 errmsg("seed %s of region \"%s\" is outside of mesh \"%s\"", place, region,
+							RelationGetRelationName(mesh))));
+			break;
+		case ABACUS_REGION_SEED_FIXED:
+			ereport(ERROR,
+					(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+					 errmsg("seed %s of region \"%s\" is on a fixed edge", place, region),
+					 errhint("Place it inside of the region.")));
+			break;
+		case ABACUS_REGION_LEAK:
+			ereport(ERROR,
+					(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+					 errmsg("region \"%s\" leaks to the hull of mesh \"%s\"", region,
+							RelationGetRelationName(mesh)),
+					 errdetail("From its seed the hull can be reached without crossing a fixed edge, at %s.", place),
+					 errhint("Add the line that closes it, or give its outline instead of a seed.")));
+			break;
+		case ABACUS_REGION_TWICE:
+			ereport(ERROR,
+					(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+					 errmsg("regions \"%s\" and \"%s\" overlap", region,
+							regions_table_region(mesh, MESH_WRITE, fault->other)),
+					 errdetail("A triangle at %s would be in both.", place),
+					 errhint("Give the inner region to the outer one as a hole, or remove it with "
+							 "abacus_unregion().")));
+			break;
+	}
+}
+
+/* ---- Changes ------------------------------------------------------------------------- */
+
+/* Puts triangles into regions, and closes their parts. */
+void
+mesh_regions_fill(Writer *writer, abacus_build *build, abacus_region_parts *parts)
+{
+	Host	   *host = writer->host;
+	abacus_region_fault fault;
+
+	if (host_run(host, abacus_build_fill_regions, build, parts, writer->header, &fault) == ABACUS_END)
+		refuse(writer, &fault);
+	abacus_region_parts_close(parts);
+}
+
+/* Takes all triangles out of regions, and closes their parts. */
+void
+mesh_regions_clear(Writer *writer, abacus_build *build, abacus_region_parts *parts)
+{
+	host_run(writer->host, abacus_build_clear_regions, build, parts, writer->header);
+	abacus_region_parts_close(parts);
+}
+
+static void
+renew(Writer *writer, abacus_build *build, const char *filter)
+{
+	mesh_regions_clear(writer, build, mesh_regions_read(writer, filter));
+	mesh_regions_fill(writer, build, mesh_regions_read(writer, filter));
+}
+
+/* Finds all regions anew: the mesh may have been built anew, and all its edges fixed. */
+void
+mesh_regions_renew(Writer *writer, abacus_build *build)
+{
+	if (writer->header->facts.census.regions > 0)
+		renew(writer, build, "true");
+}
+
+/* Regions met along segments. */
+typedef struct MetRegions
+{
+	Host	   *host;
+	Bitmapset  *numbers;
+} MetRegions;
+
+/* Called by the core. */
+static abacus_host_status
+meet(void *context, uint32_t region)
+{
+	MetRegions *met = context;
+
+	GUARD_BEGIN();
+	met->numbers = bms_add_member(met->numbers, (int) region);
+	GUARD_END(met->host);
+	return ABACUS_HOST_OK;
+}
+
+/* The numbers as an array in SQL. */
+static char *
+array_of(const Bitmapset *numbers)
+{
+	StringInfoData array;
+
+	initStringInfo(&array);
+	for (int number = -1; (number = bms_next_member(numbers, number)) >= 0;)
+		appendStringInfo(&array, "%s%d", array.len > 0 ? "," : "", number);
+	return array.data;
+}
+
+/* Segments have been fixed: finds the regions with seeds anew through which they lead. */
+void
+mesh_regions_follow(Writer *writer, abacus_build *build, abacus_segments *segments)
+{
+	MetRegions	met = {.host = writer->host};
+
+	if (writer->header->facts.census.seeded == 0)
+		return;
+	host_run(writer->host, abacus_build_regions_along, build, segments, meet, &met);
+	if (!bms_is_empty(met.numbers))
+		renew(writer, build,
+			  psprintf("r.number OPERATOR(pg_catalog.=) ANY ('{%s}'::pg_catalog.int4[]) AND r.number IN "
+					   "(SELECT s.number FROM %s AS s WHERE s.line IS NULL)", array_of(met.numbers),
+					   regions_table_require(mesh_of(writer), MESH_WRITE)));
+	bms_free(met.numbers);
+}

@@ -1,0 +1,120 @@
+/*
+ * regions_table.c: the table of a mesh's regions, found or made.
+ *
+ * A row is an outline or a seed of a region: the name of the region, its number in the pages of the
+ * mesh, a number of its own, and the line that is the outline, or the place of the seed.
+ */
+#include "postgres.h"
+
+#include "catalog/pg_type.h"
+#include "executor/spi.h"
+#include "utils/builtins.h"
+
+#include "pg/mesh/lines_table.h"
+#include "pg/mesh/regions_table.h"
+#include "pg/mesh/side_table.h"
+
+/* The table of the regions of a mesh that gets regions. */
+Oid
+regions_table_make(Relation mesh)
+{
+	static const NewSideTable regions = {
+		.suffix = REGIONS_TABLE_SUFFIX,.type = REGION_PART_TYPE,.columns = REGION_PART_COLUMNS,
+		.options = "number WITH OPTIONS NOT NULL, PRIMARY KEY (region, part)",
+		.contents = "regions",.maker = "abacus_region()",.reader = "abacus_regions()"
+	};
+	Oid			table = mesh_regions_table(mesh, MESH_WRITE);
+
+	return OidIsValid(table) ? table : side_table_make(mesh, &regions);
+}
+
+/* The table of the regions of a mesh that has some, as a name in SQL. */
+char *
+regions_table_require(Relation mesh, MeshAccess access)
+{
+	Oid			table = mesh_regions_table(mesh, access);
+
+	if (!OidIsValid(table))
+		ereport(ERROR,
+				(errcode(ERRCODE_UNDEFINED_TABLE),
+				 errmsg("mesh \"%s\" has regions, but no table of regions", RelationGetRelationName(mesh)),
+				 errdetail("There is no table \"%s" REGIONS_TABLE_SUFFIX "\" of type %s beside it.",
+						   RelationGetRelationName(mesh), REGION_PART_TYPE),
+				 errhint("After a restore, give the table of regions that name; if it is lost, "
+						 "restore it from a backup.")));
+	return lines_table_name(table);
+}
+
+/*
+ * The first column of the first row of a query with one argument; false if there is none. A writer sees
+ * what it has changed.
+ */
+static bool
+find(const char *query, MeshAccess access, Oid type, Datum argument, Datum *value)
+{
+	bool		isnull;
+
+	if (SPI_execute_with_args(query, 1, &type, &argument, NULL, access == MESH_READ, 1) != SPI_OK_SELECT)
+		elog(ERROR, "could not read the regions: %s", SPI_result_code_string(SPI_result));
+	if (SPI_processed == 0)
+		return false;
+	*value = SPI_getbinval(SPI_tuptable->vals[0], SPI_tuptable->tupdesc, 1, &isnull);
+	return true;
+}
+
+/* The name of a region with a number, which is in the caller's memory; for messages. */
+char *
+regions_table_region(Relation mesh, MeshAccess access, uint32 number)
+{
+	char	   *table = regions_table_require(mesh, access);
+	char	   *name = NULL;
+	Datum		region;
+	MemoryContext caller = CurrentMemoryContext;
+
+	SPI_connect();
+	if (find(psprintf("SELECT region FROM %s WHERE number OPERATOR(pg_catalog.=) $1 LIMIT 1", table),
+			 access, INT4OID, Int32GetDatum((int32) number), &region))
+		name = MemoryContextStrdup(caller, TextDatumGetCString(region));
+	SPI_finish();
+	return name != NULL ? name : psprintf("number %u", number);
+}
+
+/* The number of the region with a name; an error if there is none. */
+uint32
+regions_table_number(Relation mesh, MeshAccess access, const char *region)
+{
+	char	   *table = regions_table_require(mesh, access);
+	Datum		number;
+	bool		found;
+
+	SPI_connect();
+	found = find(psprintf("SELECT number FROM %s WHERE region OPERATOR(pg_catalog.=) $1 LIMIT 1", table),
+				 access, TEXTOID, CStringGetTextDatum(region), &number);
+	SPI_finish();
+	if (!found)
+		ereport(ERROR,
+				(errcode(ERRCODE_UNDEFINED_OBJECT),
+				 errmsg("mesh \"%s\" has no region \"%s\"", RelationGetRelationName(mesh), region),
+				 errhint("abacus_regions() lists the regions of a mesh.")));
+	return (uint32) DatumGetInt32(number);
+}
+
+/* Refuses to take lines away, the ids of a query, if a region uses one. SPI is connected. */
+void
+regions_table_refuse_lines(Relation mesh, const char *ids)
+{
+	char	   *table = regions_table_require(mesh, MESH_WRITE);
+	bool		isnull;
+
+	if (SPI_execute(psprintf("SELECT r.region, r.line FROM %s AS r WHERE r.line IN (%s) "
+							 "ORDER BY r.line, r.region LIMIT 1", table, ids), false, 1) != SPI_OK_SELECT)
+		elog(ERROR, "could not read the regions: %s", SPI_result_code_string(SPI_result));
+	if (SPI_processed > 0)
+		ereport(ERROR,
+				(errcode(ERRCODE_DEPENDENT_OBJECTS_STILL_EXIST),
+				 errmsg("region \"%s\" of mesh \"%s\" uses line " INT64_FORMAT,
+						SPI_getvalue(SPI_tuptable->vals[0], SPI_tuptable->tupdesc, 1),
+						RelationGetRelationName(mesh),
+						DatumGetInt64(SPI_getbinval(SPI_tuptable->vals[0], SPI_tuptable->tupdesc, 2, &isnull))),
+				 errhint("Remove the region first, with abacus_unregion().")));
+}
