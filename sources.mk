@@ -328,6 +328,7 @@ PG_SOURCES += src/pg/space/truncate.c
 PG_SOURCES += src/pg/space/vacuum.c
 PG_SOURCES += src/pg/space/vacuum_moves.c
 PG_SOURCES += src/pg/sql/arguments/attribute.c
+PG_SOURCES += src/pg/sql/arguments/extent.c
 PG_SOURCES += src/pg/sql/arguments/interpolation.c
 PG_SOURCES += src/pg/sql/arguments/line.c
 PG_SOURCES += src/pg/sql/arguments/missing.c

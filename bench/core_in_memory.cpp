@@ -106,7 +106,7 @@ struct Values {
 
 Values interpolate(const MemoryHost &host, const abacus_header &header, const Input &input) {
     abacus_interpolation linear{};
-    linear.max_edge = std::numeric_limits<double>::infinity();
+    linear.extent = {};
     linear.attributes = 1;
     Values found;
     const auto take = [](void *context, std::int64_t, const double *values) {

@@ -5,6 +5,7 @@
 #ifndef ABACUS_ABACUS_CONTOURS_H
 #define ABACUS_ABACUS_CONTOURS_H
 
+#include "abacus/extent.h"
 #include "abacus/windows.h"
 
 #ifdef __cplusplus
@@ -19,7 +20,7 @@ typedef struct abacus_contouring
 	double base;
 	const double *fixed; /* ... or these, in ascending order, all different and finite, ... */
 	size_t fixed_count;  /* ... unless this is 0 */
-	double max_edge;     /* triangles with a longer edge are left out, unless this is 0 */
+	abacus_extent extent; /* triangles outside of it are left out */
 } abacus_contouring;
 
 /*

@@ -4,6 +4,7 @@
 #ifndef ABACUS_ABACUS_DRAW_H
 #define ABACUS_ABACUS_DRAW_H
 
+#include "abacus/extent.h"
 #include "abacus/facts.h"
 
 #ifdef __cplusplus
@@ -34,7 +35,7 @@ typedef struct abacus_drawing
 	                              mesh also a label of simplices, numbered behind the attributes */
 	int32_t edges;             /* 1: draw the edges of the triangles, or of the section */
 	double exaggeration;       /* values are multiplied by this for the hill shading; 0 = no shading */
-	double max_edge;           /* leave out simplices with a longer edge; 0 = none */
+	abacus_extent extent;      /* leave out simplices outside of it */
 	double range[2];           /* values at the ends of the colours, also for values beyond;
 	                              empty ([0] >= [1]) = the least and the greatest value seen */
 	abacus_ramp ramp;

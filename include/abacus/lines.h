@@ -5,6 +5,7 @@
 #ifndef ABACUS_ABACUS_LINES_H
 #define ABACUS_ABACUS_LINES_H
 
+#include "abacus/extent.h"
 #include "abacus/locate.h"
 
 #ifdef __cplusplus
@@ -35,11 +36,11 @@ typedef abacus_host_status (*abacus_profile_report)(void *context, double distan
 /*
  * Reports the places where a path of straight lines crosses the facets of simplices, and its own
  * corners, in order. Where it leaves or enters the mesh a place is reported twice, once of these as
- * outside. `corners` places of `dimension` finite doubles each. Simplices with an edge longer than
- * max_edge count as outside; infinity: none do.
+ * outside. `corners` places of `dimension` finite doubles each. Simplices outside of the
+ * extent count as outside.
  */
-ABACUS_API abacus_status abacus_mesh_profile(abacus_mesh *mesh, uint32_t attribute, double max_edge,
-											 const double *path, size_t corners,
+ABACUS_API abacus_status abacus_mesh_profile(abacus_mesh *mesh, uint32_t attribute,
+											 const abacus_extent *extent, const double *path, size_t corners,
 											 abacus_profile_report report, void *context,
 											 abacus_error *error);
 
@@ -67,10 +68,10 @@ typedef struct abacus_sight
 /*
  * Whether the target is seen from the observer over a mesh in the plane whose heights are an
  * attribute. A line of sight that touches the ground is free; where there is no ground nothing
- * blocks it. Decided exactly. Triangles with an edge longer than max_edge count as outside;
- * infinity: none do.
+ * blocks it. Decided exactly. Triangles outside of the extent count as outside.
  */
-ABACUS_API abacus_status abacus_mesh_look(abacus_mesh *mesh, uint32_t attribute, double max_edge,
+ABACUS_API abacus_status abacus_mesh_look(abacus_mesh *mesh, uint32_t attribute,
+										  const abacus_extent *extent,
 										  const abacus_sight_end *observer,
 										  const abacus_sight_end *target, abacus_sight *sight,
 										  abacus_error *error);

@@ -5,6 +5,7 @@
 #ifndef ABACUS_ABACUS_SHAPES_H
 #define ABACUS_ABACUS_SHAPES_H
 
+#include "abacus/extent.h"
 #include "abacus/windows.h"
 
 #ifdef __cplusplus
@@ -57,7 +58,7 @@ ABACUS_API void abacus_voronoi_close(abacus_voronoi *voronoi);
  */
 typedef struct abacus_outline_kind
 {
-	double max_edge;     /* those without a longer edge, unless it is 0 */
+	abacus_extent extent; /* those in it */
 	int32_t has_alpha;   /* 1: those whose circumradius has a square of at most `alpha` */
 	double alpha;
 	int32_t fills_holes; /* 1: without holes, in space cavities, and what lies in them */

@@ -19,6 +19,7 @@ extern "C" {
 typedef struct abacus_simplex
 {
 	uint64_t code;   /* locational code of the simplex's key */
+	uint32_t region; /* number of its region; 0: none */
 	int32_t ghost;   /* 1: hull facet; the last corner is the point at infinity and not set */
 	int64_t id[ABACUS_MAX_DIMENSION + 1];
 	double corner[ABACUS_MAX_DIMENSION + 1][ABACUS_MAX_DIMENSION];

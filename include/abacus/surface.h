@@ -5,6 +5,7 @@
 #ifndef ABACUS_ABACUS_SURFACE_H
 #define ABACUS_ABACUS_SURFACE_H
 
+#include "abacus/extent.h"
 #include "abacus/windows.h"
 
 #ifdef __cplusplus
@@ -19,7 +20,7 @@ typedef struct abacus_isosurface_query
 	double value;           /* finite */
 	int32_t carried;        /* number of the attribute that the corners carry; -1: none */
 	abacus_window window;   /* only tetrahedra that meet it */
-	double max_edge;        /* ... and have no longer edge; 0: any */
+	abacus_extent extent;   /* ... and are in it */
 } abacus_isosurface_query;
 
 /*
@@ -56,7 +57,7 @@ typedef struct abacus_section_query
 	double through[3];      /* a point of the plane, finite */
 	double normal[3];       /* finite, not zero, of any length */
 	int32_t attribute;      /* number of the attribute that the corners carry; -1: none */
-	double max_edge;        /* tetrahedra with a longer edge are left out; 0: none */
+	abacus_extent extent;   /* tetrahedra outside of it are left out */
 } abacus_section_query;
 
 /* The section of one tetrahedron: a triangle or a quadrilateral. */

@@ -7,6 +7,7 @@
 #ifndef ABACUS_ABACUS_TILE_H
 #define ABACUS_ABACUS_TILE_H
 
+#include "abacus/extent.h"
 #include "abacus/draw.h"
 
 #ifdef __cplusplus
@@ -42,7 +43,7 @@ typedef struct abacus_tile_terrain_kind
 {
 	int32_t width;      /* pixels */
 	uint32_t attribute; /* heights in metres */
-	double max_edge;    /* leave out triangles with a longer edge; 0 = none */
+	abacus_extent extent; /* leave out triangles outside of it */
 	double fill;        /* height where there is no mesh */
 } abacus_tile_terrain_kind;
 
@@ -57,7 +58,7 @@ typedef struct abacus_tile_vector_kind
 {
 	int32_t attribute;       /* the value of triangles, vertices and contours; -1 = none */
 	double contour_interval; /* 0 = no contours */
-	double max_edge;         /* leave out triangles with a longer edge; 0 = none */
+	abacus_extent extent;    /* leave out triangles outside of it */
 } abacus_tile_vector_kind;
 
 /*

@@ -5,6 +5,7 @@
 #ifndef ABACUS_ABACUS_VALUES_H
 #define ABACUS_ABACUS_VALUES_H
 
+#include "abacus/extent.h"
 #include "abacus/locate.h"
 
 #ifdef __cplusplus
@@ -28,7 +29,7 @@ typedef struct abacus_interpolation
 {
 	abacus_method method;
 	abacus_outside outside;
-	double max_edge;     /* simplices with a longer edge count as outside; infinity: none */
+	abacus_extent extent; /* simplices outside of it count as outside of the mesh */
 	uint32_t attributes; /* how many are requested */
 	uint32_t attribute[ABACUS_MAX_ATTRIBUTES]; /* their numbers */
 } abacus_interpolation;

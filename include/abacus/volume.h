@@ -5,6 +5,7 @@
 #ifndef ABACUS_ABACUS_VOLUME_H
 #define ABACUS_ABACUS_VOLUME_H
 
+#include "abacus/extent.h"
 #include "abacus/windows.h"
 
 #ifdef __cplusplus
@@ -15,7 +16,7 @@ extern "C" {
 typedef struct abacus_surface
 {
 	abacus_window window; /* none or a box: simplices are cut at its border */
-	double max_edge;      /* leave out simplices with a longer edge; 0 = none */
+	abacus_extent extent; /* leave out simplices outside of it */
 	uint32_t attribute;   /* the heights; simplices that lack one are left out */
 } abacus_surface;
 

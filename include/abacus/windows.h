@@ -4,6 +4,7 @@
 #ifndef ABACUS_ABACUS_WINDOWS_H
 #define ABACUS_ABACUS_WINDOWS_H
 
+#include "abacus/extent.h"
 #include "abacus/simplex.h"
 
 #ifdef __cplusplus
@@ -38,13 +39,14 @@ typedef struct abacus_range
 
 /*
  * The simplices that meet a window, exactly, in the order in which their pages are found; without a
- * window all simplices in key order. Simplices with an edge longer than max_edge are left out,
- * unless it is 0; and those whose label is outside the range, unless that is NULL: the heads of
+ * window all simplices in key order. Simplices outside of the extent are left
+ * out; and those whose label is outside the range, unless that is NULL: the heads of
  * pages of labels show which pages to skip.
  */
 typedef struct abacus_cells abacus_cells;
 ABACUS_API abacus_status abacus_cells_open(const abacus_host *host, const abacus_facts *facts,
-										   const abacus_window *window, double max_edge,
+										   const abacus_window *window,
+										   const abacus_extent *extent,
 										   const abacus_range *label, abacus_cells **cells,
 										   abacus_error *error);
 /* The simplices with codes from `least` to `greatest`, page by page in key order. */
@@ -70,11 +72,13 @@ ABACUS_API void abacus_cells_close(abacus_cells *cells);
 
 /*
  * The vertices in a window, or the edges that meet one, each once: points equal to a vertex, and
- * points that wait, are not included. Edges longer than max_edge are left out, unless it is 0.
+ * points that wait, are not included. Edges longer than the extent's
+ * max_edge are left out, and those without a triangle in its region.
  */
 typedef struct abacus_faces abacus_faces;
 ABACUS_API abacus_status abacus_faces_open(const abacus_host *host, const abacus_facts *facts,
-										   const abacus_window *window, int edges, double max_edge,
+										   const abacus_window *window, int edges,
+										   const abacus_extent *extent,
 										   size_t cache_bytes, abacus_faces **faces,
 										   abacus_error *error);
 /*

@@ -5,27 +5,34 @@ AS 'MODULE_PATHNAME', 'abacus_sql_window_rows'
 LANGUAGE C STRICT;
 COMMENT ON FUNCTION abacus_window_rows(internal) IS 'planner support of functions that take a window';
 
-CREATE FUNCTION abacus_simplices(mesh regclass, lower double precision[], upper double precision[])
+CREATE FUNCTION abacus_simplices(mesh regclass, lower double precision[], upper double precision[], within text DEFAULT NULL)
 RETURNS SETOF abacus_simplex
 AS 'MODULE_PATHNAME', 'abacus_sql_simplices_in_box'
-LANGUAGE C STABLE STRICT PARALLEL SAFE COST 10000 ROWS 1000 SUPPORT abacus_window_rows;
-COMMENT ON FUNCTION abacus_simplices(regclass, double precision[], double precision[]) IS
-    'the simplices that meet a window, from its least to its greatest corner. Shapes: lower and upper are {x, y}, in space {x, y, z}. Units: lower and upper in those of the coordinates. Errors: 22023 a bad window or max_edge, 2202E an array of another length than the dimension';
+LANGUAGE C STABLE PARALLEL SAFE COST 10000 ROWS 1000 SUPPORT abacus_window_rows;
+COMMENT ON FUNCTION abacus_simplices(regclass, double precision[], double precision[], text) IS
+    'the simplices that meet a window, from its least to its greatest corner. within names a region of the mesh; all else is as outside of the mesh. Shapes: lower and upper are {x, y}, in space {x, y, z}. Units: lower and upper in those of the coordinates. Errors: 22023 a bad window or max_edge, 2202E an array of another length than the dimension; 42704 no such region';
 
-CREATE FUNCTION abacus_simplices(mesh regclass, center double precision[], radius double precision)
+CREATE FUNCTION abacus_simplices(mesh regclass, center double precision[], radius double precision, within text DEFAULT NULL)
 RETURNS SETOF abacus_simplex
 AS 'MODULE_PATHNAME', 'abacus_sql_simplices_in_ball'
-LANGUAGE C STABLE STRICT PARALLEL SAFE COST 10000 ROWS 1000 SUPPORT abacus_window_rows;
-COMMENT ON FUNCTION abacus_simplices(regclass, double precision[], double precision) IS
-    'the simplices that meet a ball. Shapes: center is {x, y}, in space {x, y, z}. Units: center and radius in those of the coordinates. Errors: 22023 a bad window or max_edge, 2202E an array of another length than the dimension, 22004 a NULL center or radius';
+LANGUAGE C STABLE PARALLEL SAFE COST 10000 ROWS 1000 SUPPORT abacus_window_rows;
+COMMENT ON FUNCTION abacus_simplices(regclass, double precision[], double precision, text) IS
+    'the simplices that meet a ball. within names a region of the mesh; all else is as outside of the mesh. Shapes: center is {x, y}, in space {x, y, z}. Units: center and radius in those of the coordinates. Errors: 22023 a bad window or max_edge, 2202E an array of another length than the dimension, 22004 a NULL center or radius; 42704 no such region';
+
+CREATE FUNCTION abacus_simplices(mesh regclass, within text)
+RETURNS SETOF abacus_simplex
+AS 'MODULE_PATHNAME', 'abacus_sql_simplices_within'
+LANGUAGE C STABLE STRICT PARALLEL SAFE COST 10000 ROWS 1000;
+COMMENT ON FUNCTION abacus_simplices(regclass, text) IS
+    'the triangles of a region of a mesh. Errors: 42704 no such region';
 
 -- In '{0,0}', '{9,9}' the second could be a corner or a radius, and PostgreSQL would call that ambiguous. Where
 -- there is a form with a text it takes that: here, and in those like it below, the text is the corner.
-CREATE FUNCTION abacus_simplices(mesh regclass, lower double precision[], upper text)
+CREATE FUNCTION abacus_simplices(mesh regclass, lower double precision[], upper text, within text DEFAULT NULL)
 RETURNS SETOF abacus_simplex
 AS 'MODULE_PATHNAME', 'abacus_sql_simplices_in_box'
-LANGUAGE C STABLE STRICT PARALLEL SAFE COST 10000 ROWS 1000 SUPPORT abacus_window_rows;
-COMMENT ON FUNCTION abacus_simplices(regclass, double precision[], text) IS
+LANGUAGE C STABLE PARALLEL SAFE COST 10000 ROWS 1000 SUPPORT abacus_window_rows;
+COMMENT ON FUNCTION abacus_simplices(regclass, double precision[], text, text) IS
     'the same for a window, with its upper corner as text';
 
 CREATE FUNCTION abacus_cells(
@@ -35,6 +42,7 @@ CREATE FUNCTION abacus_cells(
     max_edge double precision DEFAULT NULL,
     label text DEFAULT NULL,
     range double precision[] DEFAULT NULL,
+    within text DEFAULT NULL,
     OUT code bigint,
     OUT v0 bigint,
     OUT v1 bigint,
@@ -46,8 +54,8 @@ CREATE FUNCTION abacus_cells(
 RETURNS SETOF record
 AS 'MODULE_PATHNAME', 'abacus_sql_cells'
 LANGUAGE C STABLE PARALLEL SAFE COST 10000 ROWS 1000 SUPPORT abacus_window_rows;
-COMMENT ON FUNCTION abacus_cells(regclass, double precision[], double precision[], double precision, text, double precision[]) IS
-    'the simplices of a mesh or of a window, with the coordinates and attributes of their corners, and their labels. With label and range, those whose label is in the range. Shapes: lower and upper are {x, y}, in space {x, y, z}; corners[i][axis] and "values"[i][attribute] of corner i, from 1; range is {least, greatest}; labels as abacus_labels names them. Units: lower, upper, corners and max_edge in those of the coordinates. Errors: 22023 a bad window or max_edge, 2202E an array of another length than the dimension; 42703 no such label, 22023 a range that descends';
+COMMENT ON FUNCTION abacus_cells(regclass, double precision[], double precision[], double precision, text, double precision[], text) IS
+    'the simplices of a mesh or of a window, with the coordinates and attributes of their corners, and their labels. With label and range, those whose label is in the range. within names a region of the mesh; all else is as outside of the mesh. Shapes: lower and upper are {x, y}, in space {x, y, z}; corners[i][axis] and "values"[i][attribute] of corner i, from 1; range is {least, greatest}; labels as abacus_labels names them. Units: lower, upper, corners and max_edge in those of the coordinates. Errors: 22023 a bad window or max_edge, 2202E an array of another length than the dimension; 42703 no such label, 22023 a range that descends; 42704 no such region';
 
 CREATE FUNCTION abacus_cells(
     mesh regclass,
@@ -56,6 +64,7 @@ CREATE FUNCTION abacus_cells(
     max_edge double precision DEFAULT NULL,
     label text DEFAULT NULL,
     range double precision[] DEFAULT NULL,
+    within text DEFAULT NULL,
     OUT code bigint,
     OUT v0 bigint,
     OUT v1 bigint,
@@ -67,8 +76,8 @@ CREATE FUNCTION abacus_cells(
 RETURNS SETOF record
 AS 'MODULE_PATHNAME', 'abacus_sql_cells_in_ball'
 LANGUAGE C STABLE PARALLEL SAFE COST 10000 ROWS 1000 SUPPORT abacus_window_rows;
-COMMENT ON FUNCTION abacus_cells(regclass, double precision[], double precision, double precision, text, double precision[]) IS
-    'the simplices that meet a ball, with the coordinates and attributes of their corners, and their labels. With label and range, those whose label is in the range. Shapes: center is {x, y}, in space {x, y, z}; corners[i][axis] and "values"[i][attribute] of corner i, from 1; range is {least, greatest}; labels as abacus_labels names them. Units: center, radius, corners and max_edge in those of the coordinates. Errors: 22023 a bad window or max_edge, 2202E an array of another length than the dimension; 42703 no such label, 22023 a range that descends, 22004 a NULL center or radius';
+COMMENT ON FUNCTION abacus_cells(regclass, double precision[], double precision, double precision, text, double precision[], text) IS
+    'the simplices that meet a ball, with the coordinates and attributes of their corners, and their labels. With label and range, those whose label is in the range. within names a region of the mesh; all else is as outside of the mesh. Shapes: center is {x, y}, in space {x, y, z}; corners[i][axis] and "values"[i][attribute] of corner i, from 1; range is {least, greatest}; labels as abacus_labels names them. Units: center, radius, corners and max_edge in those of the coordinates. Errors: 22023 a bad window or max_edge, 2202E an array of another length than the dimension; 42703 no such label, 22023 a range that descends, 22004 a NULL center or radius; 42704 no such region';
 
 CREATE FUNCTION abacus_cells(
     mesh regclass,
@@ -77,6 +86,7 @@ CREATE FUNCTION abacus_cells(
     max_edge double precision DEFAULT NULL,
     label text DEFAULT NULL,
     range double precision[] DEFAULT NULL,
+    within text DEFAULT NULL,
     OUT code bigint,
     OUT v0 bigint,
     OUT v1 bigint,
@@ -88,7 +98,7 @@ CREATE FUNCTION abacus_cells(
 RETURNS SETOF record
 AS 'MODULE_PATHNAME', 'abacus_sql_cells'
 LANGUAGE C STABLE PARALLEL SAFE COST 10000 ROWS 1000 SUPPORT abacus_window_rows;
-COMMENT ON FUNCTION abacus_cells(regclass, double precision[], text, double precision, text, double precision[]) IS
+COMMENT ON FUNCTION abacus_cells(regclass, double precision[], text, double precision, text, double precision[], text) IS
     'the same for a window, with its upper corner as text';
 
 CREATE FUNCTION abacus_range_rows(internal) RETURNS internal
@@ -208,6 +218,7 @@ CREATE FUNCTION abacus_edges(
     upper double precision[] DEFAULT NULL,
     max_edge double precision DEFAULT NULL,
     fixed boolean DEFAULT false,
+    within text DEFAULT NULL,
     OUT v0 bigint,
     OUT v1 bigint,
     OUT length double precision,
@@ -216,8 +227,8 @@ CREATE FUNCTION abacus_edges(
 RETURNS SETOF record
 AS 'MODULE_PATHNAME', 'abacus_sql_edges'
 LANGUAGE C STABLE PARALLEL SAFE COST 10000 ROWS 1000 SUPPORT abacus_window_rows;
-COMMENT ON FUNCTION abacus_edges(regclass, double precision[], double precision[], double precision, boolean) IS
-    'the edges of a mesh, or those that meet a window, each once. With fixed, only fixed edges, with the lines that they are on; their kind is hard if one of these is. Shapes: lower and upper are {x, y}, in space {x, y, z}. Units: lower, upper, max_edge and length in those of the coordinates. Errors: 22023 a bad window or max_edge, 2202E an array of another length than the dimension';
+COMMENT ON FUNCTION abacus_edges(regclass, double precision[], double precision[], double precision, boolean, text) IS
+    'the edges of a mesh, or those that meet a window, each once. With fixed, only fixed edges, with the lines that they are on; their kind is hard if one of these is. within names a region of the mesh; all else is as outside of the mesh. Shapes: lower and upper are {x, y}, in space {x, y, z}. Units: lower, upper, max_edge and length in those of the coordinates. Errors: 22023 a bad window or max_edge, 2202E an array of another length than the dimension; 42704 no such region';
 
 CREATE FUNCTION abacus_edges(
     mesh regclass,
@@ -225,6 +236,7 @@ CREATE FUNCTION abacus_edges(
     radius double precision,
     max_edge double precision DEFAULT NULL,
     fixed boolean DEFAULT false,
+    within text DEFAULT NULL,
     OUT v0 bigint,
     OUT v1 bigint,
     OUT length double precision,
@@ -233,8 +245,8 @@ CREATE FUNCTION abacus_edges(
 RETURNS SETOF record
 AS 'MODULE_PATHNAME', 'abacus_sql_edges_in_ball'
 LANGUAGE C STABLE PARALLEL SAFE COST 10000 ROWS 1000 SUPPORT abacus_window_rows;
-COMMENT ON FUNCTION abacus_edges(regclass, double precision[], double precision, double precision, boolean) IS
-    'the edges that meet a ball, each once. With fixed, only fixed edges, with the lines that they are on; their kind is hard if one of these is. Shapes: center is {x, y}, in space {x, y, z}. Units: center, radius, max_edge and length in those of the coordinates. Errors: 22023 a bad window or max_edge, 2202E an array of another length than the dimension, 22004 a NULL center or radius';
+COMMENT ON FUNCTION abacus_edges(regclass, double precision[], double precision, double precision, boolean, text) IS
+    'the edges that meet a ball, each once. With fixed, only fixed edges, with the lines that they are on; their kind is hard if one of these is. within names a region of the mesh; all else is as outside of the mesh. Shapes: center is {x, y}, in space {x, y, z}. Units: center, radius, max_edge and length in those of the coordinates. Errors: 22023 a bad window or max_edge, 2202E an array of another length than the dimension, 22004 a NULL center or radius; 42704 no such region';
 
 CREATE FUNCTION abacus_edges(
     mesh regclass,
@@ -242,6 +254,7 @@ CREATE FUNCTION abacus_edges(
     upper text,
     max_edge double precision DEFAULT NULL,
     fixed boolean DEFAULT false,
+    within text DEFAULT NULL,
     OUT v0 bigint,
     OUT v1 bigint,
     OUT length double precision,
@@ -250,7 +263,7 @@ CREATE FUNCTION abacus_edges(
 RETURNS SETOF record
 AS 'MODULE_PATHNAME', 'abacus_sql_edges'
 LANGUAGE C STABLE PARALLEL SAFE COST 10000 ROWS 1000 SUPPORT abacus_window_rows;
-COMMENT ON FUNCTION abacus_edges(regclass, double precision[], text, double precision, boolean) IS
+COMMENT ON FUNCTION abacus_edges(regclass, double precision[], text, double precision, boolean, text) IS
     'the same for a window, with its upper corner as text';
 
 CREATE FUNCTION abacus_star(mesh regclass, x double precision, y double precision)

@@ -33,6 +33,7 @@ COMMENT ON FUNCTION abacus_voronoi_facets(regclass, double precision[], double p
 CREATE FUNCTION abacus_hull(
     mesh regclass,
     max_edge double precision DEFAULT NULL,
+    within text DEFAULT NULL,
     OUT ring bigint,
     OUT "position" bigint,
     OUT vertex bigint,
@@ -42,8 +43,8 @@ CREATE FUNCTION abacus_hull(
 RETURNS SETOF record
 AS 'MODULE_PATHNAME', 'abacus_sql_hull'
 LANGUAGE C STABLE PARALLEL SAFE COST 100000 ROWS 1000;
-COMMENT ON FUNCTION abacus_hull(regclass, double precision) IS
-    'the border of a mesh, or of its simplices without longer edges. Rings of vertices, in space triangles. Units: max_edge and places in those of the coordinates. Errors: 22023 a bad max_edge, 53400 no room for temporary files';
+COMMENT ON FUNCTION abacus_hull(regclass, double precision, text) IS
+    'the border of a mesh, or of its simplices without longer edges. Rings of vertices, in space triangles. within names a region of the mesh; all else is as outside of the mesh. Units: max_edge and places in those of the coordinates. Errors: 22023 a bad max_edge, 53400 no room for temporary files; 42704 no such region';
 
 CREATE FUNCTION abacus_alpha_shape(
     mesh regclass,

@@ -14,12 +14,13 @@ CREATE FUNCTION abacus_tile_picture(
     exaggeration double precision DEFAULT 0,
     max_edge double precision DEFAULT NULL,
     ramp text DEFAULT NULL,
-    contours double precision DEFAULT NULL)
+    contours double precision DEFAULT NULL,
+    within text DEFAULT NULL)
 RETURNS bytea
 AS 'MODULE_PATHNAME', 'abacus_sql_tile_picture'
 LANGUAGE C STABLE PARALLEL SAFE COST 1000000;
-COMMENT ON FUNCTION abacus_tile_picture(regclass, integer, integer, integer, integer, double precision[], integer, text, double precision[], boolean, double precision, double precision, text, double precision) IS
-    'a tile of a web map as a PNG, drawn as by abacus_draw, with nothing behind the mesh. The coordinates of the mesh are longitude and latitude (SRID 4326), Web Mercator (3857), or lie in a square with this lower left corner and side (world). Shapes: world is {x, y, side}; range is {first, last}. Units: size in pixels; world and max_edge in those of the coordinates; range and contours in those of the attribute; heights in metres with SRID 4326. Errors: 22023 no such tile, another SRID, a size out of range, an attribute without range, a mesh of dimension 3; 55000 neither srid nor world for a mesh without SRID; 2202E world of another length';
+COMMENT ON FUNCTION abacus_tile_picture(regclass, integer, integer, integer, integer, double precision[], integer, text, double precision[], boolean, double precision, double precision, text, double precision, text) IS
+    'a tile of a web map as a PNG, drawn as by abacus_draw, with nothing behind the mesh. The coordinates of the mesh are longitude and latitude (SRID 4326), Web Mercator (3857), or lie in a square with this lower left corner and side (world). within names a region of the mesh; all else is as outside of the mesh. Shapes: world is {x, y, side}; range is {first, last}. Units: size in pixels; world and max_edge in those of the coordinates; range and contours in those of the attribute; heights in metres with SRID 4326. Errors: 22023 no such tile, another SRID, a size out of range, an attribute without range, a mesh of dimension 3; 55000 neither srid nor world for a mesh without SRID; 2202E world of another length; 42704 no such region';
 
 CREATE FUNCTION abacus_tile_vector(
     mesh regclass,
@@ -30,12 +31,13 @@ CREATE FUNCTION abacus_tile_vector(
     world double precision[] DEFAULT NULL,
     attribute text DEFAULT NULL,
     contours double precision DEFAULT NULL,
-    max_edge double precision DEFAULT NULL)
+    max_edge double precision DEFAULT NULL,
+    within text DEFAULT NULL)
 RETURNS bytea
 AS 'MODULE_PATHNAME', 'abacus_sql_tile_vector'
 LANGUAGE C STABLE PARALLEL SAFE COST 1000000;
-COMMENT ON FUNCTION abacus_tile_vector(regclass, integer, integer, integer, integer, double precision[], text, double precision, double precision) IS
-    'a tile of a web map as a Mapbox vector tile, with the layers triangles, vertices, contours and hull. A tile with many triangles has only contours and hull. Shapes: world is {x, y, side}. Units: world and max_edge in those of the coordinates; contours in those of the attribute. Errors: those of abacus_tile_picture';
+COMMENT ON FUNCTION abacus_tile_vector(regclass, integer, integer, integer, integer, double precision[], text, double precision, double precision, text) IS
+    'a tile of a web map as a Mapbox vector tile, with the layers triangles, vertices, contours and hull. A tile with many triangles has only contours and hull. within names a region of the mesh; all else is as outside of the mesh. Shapes: world is {x, y, side}. Units: world and max_edge in those of the coordinates; contours in those of the attribute. Errors: those of abacus_tile_picture; 42704 no such region';
 
 CREATE FUNCTION abacus_tile_terrain(
     mesh regclass,
@@ -47,12 +49,13 @@ CREATE FUNCTION abacus_tile_terrain(
     size integer DEFAULT 256,
     attribute text DEFAULT NULL,
     max_edge double precision DEFAULT NULL,
-    fill double precision DEFAULT 0)
+    fill double precision DEFAULT 0,
+    within text DEFAULT NULL)
 RETURNS bytea
 AS 'MODULE_PATHNAME', 'abacus_sql_tile_terrain'
 LANGUAGE C STABLE PARALLEL SAFE COST 1000000;
-COMMENT ON FUNCTION abacus_tile_terrain(regclass, integer, integer, integer, integer, double precision[], integer, text, double precision, double precision) IS
-    'a tile of a web map as a PNG whose colours are heights. The encoding is terrarium: 256 red + green + blue / 256 - 32768. Shapes: world is {x, y, side}. Units: size in pixels; world and max_edge in those of the coordinates; fill in those of the attribute. Errors: those of abacus_tile_picture';
+COMMENT ON FUNCTION abacus_tile_terrain(regclass, integer, integer, integer, integer, double precision[], integer, text, double precision, double precision, text) IS
+    'a tile of a web map as a PNG whose colours are heights. The encoding is terrarium: 256 red + green + blue / 256 - 32768. within names a region of the mesh; all else is as outside of the mesh. Shapes: world is {x, y, side}. Units: size in pixels; world and max_edge in those of the coordinates; fill in those of the attribute. Errors: those of abacus_tile_picture; 42704 no such region';
 
 CREATE FUNCTION abacus_tile_etag(mesh regclass)
 RETURNS text
@@ -72,9 +75,10 @@ CREATE FUNCTION abacus_tiles(
     exaggeration double precision DEFAULT 0,
     edges boolean DEFAULT true,
     max_edge double precision DEFAULT NULL,
-    size integer DEFAULT 256)
+    size integer DEFAULT 256,
+    within text DEFAULT NULL)
 RETURNS SETOF regprocedure
 AS 'MODULE_PATHNAME', 'abacus_sql_tiles'
 LANGUAGE C VOLATILE PARALLEL UNSAFE COST 100000 ROWS 4;
-COMMENT ON FUNCTION abacus_tiles(regclass, integer, double precision[], text, double precision[], double precision, text, double precision, boolean, double precision, integer) IS
-    'makes functions that tile servers call: <mesh>_picture, <mesh>_vector and <mesh>_terrain for Martin, <mesh>_mvt for pg_tileserv. Returns them. Shapes: world is {x, y, side}; range is {first, last}. Units: size in pixels; world and max_edge in those of the coordinates; range and contours in those of the attribute. Errors: those of abacus_tile_picture; 42622 too long a name, 42501 no right to make functions';
+COMMENT ON FUNCTION abacus_tiles(regclass, integer, double precision[], text, double precision[], double precision, text, double precision, boolean, double precision, integer, text) IS
+    'makes functions that tile servers call: <mesh>_picture, <mesh>_vector and <mesh>_terrain for Martin, <mesh>_mvt for pg_tileserv. Returns them. within names a region of the mesh; all else is as outside of the mesh. Shapes: world is {x, y, side}; range is {first, last}. Units: size in pixels; world and max_edge in those of the coordinates; range and contours in those of the attribute. Errors: those of abacus_tile_picture; 42622 too long a name, 42501 no right to make functions; 42704 no such region';

@@ -126,6 +126,7 @@ CREATE FUNCTION _abacus_edges(
     lower double precision[] DEFAULT NULL,
     upper double precision[] DEFAULT NULL,
     max_edge double precision DEFAULT NULL,
+    within text DEFAULT NULL,
     OUT v0 bigint,
     OUT v1 bigint,
     OUT length double precision,
@@ -133,5 +134,5 @@ CREATE FUNCTION _abacus_edges(
 RETURNS SETOF record
 AS 'MODULE_PATHNAME', 'abacus_sql_edge_lines'
 LANGUAGE C STABLE PARALLEL SAFE COST 10000 ROWS 1000 SUPPORT abacus_window_rows;
-COMMENT ON FUNCTION _abacus_edges(regclass, double precision[], double precision[], double precision) IS
+COMMENT ON FUNCTION _abacus_edges(regclass, double precision[], double precision[], double precision, text) IS
     'inside abacus_postgis: abacus_edges with the places of their ends';

@@ -5,6 +5,7 @@ CREATE FUNCTION abacus_cells_geom(
     bounds geometry DEFAULT NULL,
     attribute text DEFAULT NULL,
     max_edge double precision DEFAULT NULL,
+    within text DEFAULT NULL,
     OUT code bigint,
     OUT v0 bigint,
     OUT v1 bigint,
@@ -17,11 +18,11 @@ LANGUAGE sql STABLE PARALLEL SAFE COST 10000 ROWS 1000
 BEGIN ATOMIC
     SELECT c.code, c.v0, c.v1, c.v2, c.v3, _abacus_cell(c.corners, c."values", f.attribute_number, f.srid), c."values"
     FROM _abacus_facts(mesh, attribute) AS f,
-         abacus_cells(mesh, _abacus_lower(mesh, bounds), _abacus_upper(mesh, bounds), max_edge) AS c
+         abacus_cells(mesh, _abacus_lower(mesh, bounds), _abacus_upper(mesh, bounds), max_edge, within => within) AS c
     WHERE ST_IsEmpty(bounds) IS NOT TRUE;
 END;
-COMMENT ON FUNCTION abacus_cells_geom(regclass, geometry, text, double precision) IS
-    'the simplices of a mesh, or those that meet the box around a geometry. Triangles are polygons, with an attribute as z; tetrahedra are closed surfaces. Shapes: "values"[i][attribute] of corner i, from 1. Units: max_edge in those of the coordinates. Errors: 22023 another SRID; 42703 no such attribute';
+COMMENT ON FUNCTION abacus_cells_geom(regclass, geometry, text, double precision, text) IS
+    'the simplices of a mesh, or those that meet the box around a geometry. Triangles are polygons, with an attribute as z; tetrahedra are closed surfaces. within names a region of the mesh; all else is as outside of the mesh. Shapes: "values"[i][attribute] of corner i, from 1. Units: max_edge in those of the coordinates. Errors: 22023 another SRID; 42703 no such attribute; 42704 no such region';
 
 CREATE FUNCTION abacus_vertices_geom(
     mesh regclass,
@@ -48,6 +49,7 @@ CREATE FUNCTION abacus_edges_geom(
     mesh regclass,
     bounds geometry DEFAULT NULL,
     max_edge double precision DEFAULT NULL,
+    within text DEFAULT NULL,
     OUT v0 bigint,
     OUT v1 bigint,
     OUT length double precision,
@@ -57,11 +59,11 @@ LANGUAGE sql STABLE PARALLEL SAFE COST 10000 ROWS 1000
 BEGIN ATOMIC
     SELECT e.v0, e.v1, e.length, _abacus_line(e.path, f.dimension, f.srid)
     FROM _abacus_facts(mesh, NULL) AS f,
-         _abacus_edges(mesh, _abacus_lower(mesh, bounds), _abacus_upper(mesh, bounds), max_edge) AS e
+         _abacus_edges(mesh, _abacus_lower(mesh, bounds), _abacus_upper(mesh, bounds), max_edge, within) AS e
     WHERE ST_IsEmpty(bounds) IS NOT TRUE;
 END;
-COMMENT ON FUNCTION abacus_edges_geom(regclass, geometry, double precision) IS
-    'the edges of a mesh, or those that meet the box around a geometry, each once. Units: max_edge and length in those of the coordinates. Errors: 22023 another SRID or a bad max_edge';
+COMMENT ON FUNCTION abacus_edges_geom(regclass, geometry, double precision, text) IS
+    'the edges of a mesh, or those that meet the box around a geometry, each once. within names a region of the mesh; all else is as outside of the mesh. Units: max_edge and length in those of the coordinates. Errors: 22023 another SRID or a bad max_edge; 42704 no such region';
 
 CREATE FUNCTION abacus_contours_geom(
     mesh regclass,
@@ -72,6 +74,7 @@ CREATE FUNCTION abacus_contours_geom(
     attribute text DEFAULT NULL,
     bounds geometry DEFAULT NULL,
     max_edge double precision DEFAULT NULL,
+    within text DEFAULT NULL,
     OUT id bigint,
     OUT value double precision,
     OUT geom geometry)
@@ -81,24 +84,25 @@ BEGIN ATOMIC
     SELECT c.id, c.value, _abacus_line(c.path, 2, f.srid)
     FROM _abacus_facts(mesh, NULL) AS f,
          abacus_contours(mesh, level_interval, level_base, fixed_levels, false, attribute,
-                         _abacus_lower(mesh, bounds), _abacus_upper(mesh, bounds), max_edge) AS c
+                         _abacus_lower(mesh, bounds), _abacus_upper(mesh, bounds), max_edge, within => within) AS c
     WHERE polygonize IS NOT TRUE AND ST_IsEmpty(bounds) IS NOT TRUE
     UNION ALL
     SELECT c.id, min(c.value), ST_Multi(_abacus_nest(ST_Collect(_abacus_line(c.path, 2, f.srid))))
     FROM _abacus_facts(mesh, NULL) AS f,
          abacus_contours(mesh, level_interval, level_base, fixed_levels, true, attribute,
-                         _abacus_lower(mesh, bounds), _abacus_upper(mesh, bounds), max_edge) AS c
+                         _abacus_lower(mesh, bounds), _abacus_upper(mesh, bounds), max_edge, within => within) AS c
     WHERE polygonize AND ST_IsEmpty(bounds) IS NOT TRUE
     GROUP BY c.id;
 END;
-COMMENT ON FUNCTION abacus_contours_geom(regclass, double precision, double precision, double precision[], boolean, text, geometry, double precision) IS
-    'the contours of an attribute in a mesh in the plane, or in the box around a geometry, as whole lines. With polygonize, the bands between levels, a multipolygon each. Shapes: fixed_levels is an array of levels. Units: levels in those of the attribute, max_edge in those of the coordinates. Errors: those of abacus_contours; 22023 another SRID';
+COMMENT ON FUNCTION abacus_contours_geom(regclass, double precision, double precision, double precision[], boolean, text, geometry, double precision, text) IS
+    'the contours of an attribute in a mesh in the plane, or in the box around a geometry, as whole lines. With polygonize, the bands between levels, a multipolygon each. within names a region of the mesh; all else is as outside of the mesh. Shapes: fixed_levels is an array of levels. Units: levels in those of the attribute, max_edge in those of the coordinates. Errors: those of abacus_contours; 22023 another SRID; 42704 no such region';
 
 CREATE FUNCTION abacus_profile_geom(
     mesh regclass,
     line geometry,
     attribute text DEFAULT NULL,
     max_edge double precision DEFAULT NULL,
+    within text DEFAULT NULL,
     OUT distance double precision,
     OUT value double precision,
     OUT geom geometry)
@@ -106,10 +110,10 @@ RETURNS SETOF record
 LANGUAGE sql STABLE PARALLEL SAFE COST 10000 ROWS 1000
 BEGIN ATOMIC
     SELECT p.distance, p.value, _abacus_point(p.x, p.y, p.z, f.srid)
-    FROM _abacus_facts(mesh, NULL) AS f, abacus_profile(mesh, _abacus_path(mesh, line), attribute, max_edge) AS p;
+    FROM _abacus_facts(mesh, NULL) AS f, abacus_profile(mesh, _abacus_path(mesh, line), attribute, max_edge, within) AS p;
 END;
-COMMENT ON FUNCTION abacus_profile_geom(regclass, geometry, text, double precision) IS
-    'an attribute along a line. A row stands at each corner of the line and wherever it crosses an edge, in space a facet; value is NULL where the line leaves or enters the mesh. Units: distance and max_edge in those of the coordinates, value in those of the attribute. Errors: those of abacus_profile; 22023 another SRID or no line';
+COMMENT ON FUNCTION abacus_profile_geom(regclass, geometry, text, double precision, text) IS
+    'an attribute along a line. A row stands at each corner of the line and wherever it crosses an edge, in space a facet; value is NULL where the line leaves or enters the mesh. within names a region of the mesh; all else is as outside of the mesh. Units: distance and max_edge in those of the coordinates, value in those of the attribute. Errors: those of abacus_profile; 22023 another SRID or no line; 42704 no such region';
 
 CREATE FUNCTION abacus_voronoi_geom(
     mesh regclass,
@@ -150,7 +154,7 @@ END;
 COMMENT ON FUNCTION abacus_voronoi_facets_geom(regclass, geometry) IS
     'the facets between neighbouring Voronoi cells of a mesh: lines, in space polygons. Units: size in those of the coordinates, in space in their square. Errors: those of abacus_voronoi_facets; 22023 another SRID';
 
-CREATE FUNCTION abacus_hull_geom(mesh regclass, max_edge double precision DEFAULT NULL)
+CREATE FUNCTION abacus_hull_geom(mesh regclass, max_edge double precision DEFAULT NULL, within text DEFAULT NULL)
 RETURNS geometry
 LANGUAGE sql STABLE PARALLEL SAFE COST 1000000
 BEGIN ATOMIC
@@ -158,10 +162,10 @@ BEGIN ATOMIC
                     _abacus_triangles(array_agg(r.places ORDER BY r.ring) FILTER (WHERE f.dimension = 3), min(f.srid)))
     FROM _abacus_facts(mesh, NULL) AS f,
          (SELECT h.ring, array_agg(CASE WHEN h.z IS NULL THEN ARRAY[h.x, h.y] ELSE ARRAY[h.x, h.y, h.z] END ORDER BY h.position) AS places
-          FROM abacus_hull(mesh, max_edge) AS h GROUP BY h.ring) AS r;
+          FROM abacus_hull(mesh, max_edge, within) AS h GROUP BY h.ring) AS r;
 END;
-COMMENT ON FUNCTION abacus_hull_geom(regclass, double precision) IS
-    'the convex hull of a mesh, or the outline of its simplices without longer edges. Polygons with holes, in space a TIN. Units: max_edge in those of the coordinates. Errors: those of abacus_hull';
+COMMENT ON FUNCTION abacus_hull_geom(regclass, double precision, text) IS
+    'the convex hull of a mesh, or the outline of its simplices without longer edges. Polygons with holes, in space a TIN. within names a region of the mesh; all else is as outside of the mesh. Units: max_edge in those of the coordinates. Errors: those of abacus_hull; 42704 no such region';
 
 CREATE FUNCTION abacus_alpha_shape_geom(
     mesh regclass,

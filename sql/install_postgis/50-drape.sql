@@ -6,18 +6,20 @@ CREATE FUNCTION abacus_drape(
     attribute text DEFAULT NULL,
     densify boolean DEFAULT false,
     outside text DEFAULT 'null',
-    max_edge double precision DEFAULT NULL)
+    max_edge double precision DEFAULT NULL,
+    within text DEFAULT NULL)
 RETURNS geometry
 AS 'MODULE_PATHNAME', 'abacus_sql_drape'
 LANGUAGE C STABLE PARALLEL SAFE COST 10000;
-COMMENT ON FUNCTION abacus_drape(regclass, geometry, text, boolean, text, double precision) IS
-    'points, lines or polygons with an attribute of a mesh in the plane as z. With densify, they get a place wherever they cross an edge. z is NaN outside the mesh, unless outside is nearest, and where a value is missing. Units: max_edge in those of the coordinates, z in those of the attribute. Errors: 22023 curves and surfaces, another SRID, a mesh of dimension 3, a coordinate that is not finite; 42703 no such attribute, 42702 none named where the mesh has several, 55000 none at all';
+COMMENT ON FUNCTION abacus_drape(regclass, geometry, text, boolean, text, double precision, text) IS
+    'points, lines or polygons with an attribute of a mesh in the plane as z. With densify, they get a place wherever they cross an edge. z is NaN outside the mesh, unless outside is nearest, and where a value is missing. within names a region of the mesh; all else is as outside of the mesh. Units: max_edge in those of the coordinates, z in those of the attribute. Errors: 22023 curves and surfaces, another SRID, a mesh of dimension 3, a coordinate that is not finite; 42703 no such attribute, 42702 none named where the mesh has several, 55000 none at all; 42704 no such region';
 
 CREATE FUNCTION abacus_clip(
     mesh regclass,
     area geometry,
     attribute text DEFAULT NULL,
     max_edge double precision DEFAULT NULL,
+    within text DEFAULT NULL,
     OUT code bigint,
     OUT v0 bigint,
     OUT v1 bigint,
@@ -36,12 +38,12 @@ BEGIN ATOMIC
                 FROM (SELECT _abacus_area(mesh, area) AS area OFFSET 0) AS a,
                      LATERAL (SELECT d.*, f.attribute_number, f.srid, _abacus_cell(d.corners, d."values", NULL, f.srid) AS cell
                               FROM _abacus_facts(mesh, attribute) AS f,
-                                   abacus_cells(mesh, _abacus_lower(mesh, a.area), _abacus_upper(mesh, a.area), max_edge) AS d
+                                   abacus_cells(mesh, _abacus_lower(mesh, a.area), _abacus_upper(mesh, a.area), max_edge, within => within) AS d
                               OFFSET 0) AS c
                 WHERE NOT ST_IsEmpty(a.area) AND ST_Intersects(a.area, c.cell)
                 OFFSET 0) AS t
           OFFSET 0) AS p
     WHERE p.whole OR NOT ST_IsEmpty(p.part);
 END;
-COMMENT ON FUNCTION abacus_clip(regclass, geometry, text, double precision) IS
-    'the parts of the triangles of a mesh in the plane that lie within polygons. Triangles wholly inside stay as they are; others are cut at the border, with an attribute as z. Units: max_edge in those of the coordinates. Errors: 22023 no polygon, another SRID, a mesh of dimension 3; 42703 no such attribute';
+COMMENT ON FUNCTION abacus_clip(regclass, geometry, text, double precision, text) IS
+    'the parts of the triangles of a mesh in the plane that lie within polygons. Triangles wholly inside stay as they are; others are cut at the border, with an attribute as z. within names a region of the mesh; all else is as outside of the mesh. Units: max_edge in those of the coordinates. Errors: 22023 no polygon, another SRID, a mesh of dimension 3; 42703 no such attribute; 42704 no such region';

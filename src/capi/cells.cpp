@@ -11,9 +11,9 @@
 
 struct abacus_cells {
     abacus_cells(const abacus_host *table, const abacus_facts &facts, const abacus_window &window,
-                 double max_edge, const abacus_range *label)
+                 const abacus_extent &extent, const abacus_range *label)
         : host(*table), values(all.data(), facts.columns.attributes), labels(host, facts),
-          cells(host, facts, window, max_edge, label) {}
+          cells(host, facts, window, extent, label) {}
 
     abacus_cells(const abacus_host *table, const abacus_facts &facts, std::uint64_t least,
                  std::uint64_t greatest)
@@ -33,11 +33,11 @@ struct abacus_cells {
 };
 
 abacus_status abacus_cells_open(const abacus_host *host, const abacus_facts *facts,
-                                const abacus_window *window, double max_edge,
+                                const abacus_window *window, const abacus_extent *extent,
                                 const abacus_range *label, abacus_cells **cells,
                                 abacus_error *error) {
     return abacus::guard(error, [&] {
-        *cells = abacus::create_handle<abacus_cells>(host, *facts, *window, max_edge, label);
+        *cells = abacus::create_handle<abacus_cells>(host, *facts, *window, *extent, label);
         return ABACUS_OK;
     });
 }

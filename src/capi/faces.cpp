@@ -11,8 +11,8 @@
 
 struct abacus_faces {
     abacus_faces(const abacus_host *table, const abacus_facts &facts, const abacus_window &window,
-                 int corners, double max_edge, std::size_t cache_bytes)
-        : host(*table), faces(host, facts, window, corners, max_edge, cache_bytes) {}
+                 int corners, const abacus_extent &extent, std::size_t cache_bytes)
+        : host(*table), faces(host, facts, window, corners, extent, cache_bytes) {}
 
     abacus_faces(const abacus_host *table, const abacus_facts &facts, const abacus_window &window,
                  const abacus_range &range, std::size_t cache_bytes)
@@ -24,12 +24,12 @@ struct abacus_faces {
 };
 
 abacus_status abacus_faces_open(const abacus_host *host, const abacus_facts *facts,
-                                const abacus_window *window, int edges, double max_edge,
+                                const abacus_window *window, int edges, const abacus_extent *extent,
                                 std::size_t cache_bytes, abacus_faces **faces,
                                 abacus_error *error) {
     return abacus::guard(error, [&] {
         *faces = abacus::create_handle<abacus_faces>(host, *facts, *window, edges != 0 ? 2 : 1,
-                                                     max_edge, cache_bytes);
+                                                     *extent, cache_bytes);
         return ABACUS_OK;
     });
 }

@@ -31,28 +31,29 @@ abacus_status abacus_mesh_ray(abacus_mesh *mesh, const double *origin, const dou
     });
 }
 
-abacus_status abacus_mesh_profile(abacus_mesh *mesh, uint32_t attribute, double max_edge,
-                                  const double *path, size_t corners, abacus_profile_report report,
-                                  void *context, abacus_error *error) {
+abacus_status abacus_mesh_profile(abacus_mesh *mesh, uint32_t attribute,
+                                  const abacus_extent *extent, const double *path, size_t corners,
+                                  abacus_profile_report report, void *context,
+                                  abacus_error *error) {
     return abacus::dispatch(mesh->reader, error, [&]<int D>(abacus::Reader<D> &reader) {
         abacus::Profile<D> profile(
             reader, attribute,
             [&](double distance, const abacus::Point<D> &place, double value) {
                 abacus::host::require(report(context, distance, place.data(), value));
             },
-            max_edge);
+            *extent);
         profile.along(corners,
                       [&](std::size_t i) { return abacus::finite_point<D>(path + i * D); });
     });
 }
 
-abacus_status abacus_mesh_look(abacus_mesh *mesh, uint32_t attribute, double max_edge,
+abacus_status abacus_mesh_look(abacus_mesh *mesh, uint32_t attribute, const abacus_extent *extent,
                                const abacus_sight_end *observer, const abacus_sight_end *target,
                                abacus_sight *sight, abacus_error *error) {
     return abacus::guard(error, [&] {
         require_finite(*observer);
         require_finite(*target);
-        *sight = abacus::look(mesh->reader.get<2>(), attribute, *observer, *target, max_edge);
+        *sight = abacus::look(mesh->reader.get<2>(), attribute, *observer, *target, *extent);
         return ABACUS_OK;
     });
 }

@@ -75,9 +75,8 @@ abacus_status abacus_build_regions_along(abacus_build *build, abacus_segments *s
                                          abacus_error *error) {
     using namespace abacus;
     return in_plane(build->build, "regions", error, [&](Build<2> &opened) {
-        opened.regions_along(segments->segments, [&](RegionNumber region) {
-            host::require(report(context, region));
-        });
+        opened.regions_along(segments->segments,
+                             [&](RegionNumber region) { host::require(report(context, region)); });
         return ABACUS_OK;
     });
 }

@@ -159,8 +159,7 @@ template <int D> void Build<D>::unfix(Segments &segments, abacus_header &header)
 }
 
 template <int D>
-bool Build<D>::fill_regions(RegionParts &parts, abacus_region_fault &fault,
-                            abacus_header &header) {
+bool Build<D>::fill_regions(RegionParts &parts, abacus_region_fault &fault, abacus_header &header) {
     bool is_sound = true;
     change(header, [&] {
         is_sound = constraining_.fill_regions(parts, fault);

@@ -43,7 +43,8 @@ Point<2> Freeing::free_edge(const Point<2> &from, const Point<2> &b) {
     const Fixed left = over_.kind(from, end);
     if (left == how) return end;
     const Link outer = cache_.cross(link_simplex(inner), link_facet(inner));
-    if (left == Fixed::no && cache_.region(link_simplex(inner)) != cache_.region(link_simplex(outer)))
+    if (left == Fixed::no &&
+        cache_.region(link_simplex(inner)) != cache_.region(link_simplex(outer)))
         throw_region_ends(from, end);
     for (const Link side : {inner, outer}) {
         cache_.set_fixed(side, left);

@@ -12,7 +12,8 @@ constexpr std::size_t end_words = 2, edge_words = 1 + 2 * end_words;
 } // namespace
 
 OutlineSides::OutlineSides(const Host &host, std::size_t memory)
-    : edges_(host, edge_words, edge_words, memory / 2), host_(host), share_(memory / 4), crossed_(host), free_(host), order_(host), fresh_(host) {}
+    : edges_(host, edge_words, edge_words, memory / 2), host_(host), share_(memory / 4),
+      crossed_(host), free_(host), order_(host), fresh_(host) {}
 
 void OutlineSides::add(RegionNumber region, const Point<2> &a, const Point<2> &b) {
     std::uint64_t *const record = edges_.add();
@@ -63,9 +64,9 @@ void OutlineSides::sweep(const Visit &visit, std::optional<Point<2>> &open) {
     const std::uint64_t *begin = odd_->next(), *end = ends_->next();
     while (begin != nullptr || end != nullptr) {
         const bool is_begin =
-            begin != nullptr && (end == nullptr || !std::lexicographical_compare(
-                                                       end, end + end_words, begin,
-                                                       begin + end_words));
+            begin != nullptr &&
+            (end == nullptr ||
+             !std::lexicographical_compare(end, end + end_words, begin, begin + end_words));
         const Point<2> p = point_from_ordered<2>(is_begin ? begin : end);
         std::size_t ended = 0;
         for (; end != nullptr && point_from_ordered<2>(end) == p; end = ends_->next()) ++ended;
@@ -88,8 +89,8 @@ std::size_t OutlineSides::below(const Point<2> &p) const {
     const auto is_below = [&](Number n, const Point<2> &q) {
         return orientation(crossed_[n].left, crossed_[n].right, q) > 0;
     };
-    return static_cast<std::size_t>(
-        std::lower_bound(order_.begin(), order_.end(), p, is_below) - order_.begin());
+    return static_cast<std::size_t>(std::lower_bound(order_.begin(), order_.end(), p, is_below) -
+                                    order_.begin());
 }
 
 std::size_t OutlineSides::drop(std::size_t below, const Point<2> &p) {

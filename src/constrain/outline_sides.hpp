@@ -1,11 +1,11 @@
-// On which side of its edges the inside of outlines lies: a place is inside if a ray from it crosses
-// an odd number of edges (the even-odd rule).
+// On which side of its edges the inside of outlines lies: a place is inside if a ray from it
+// crosses an odd number of edges (the even-odd rule).
 //
-// An edge that outlines have an even number of times counts as none. Those left cross nowhere and meet
-// in vertices. A line sweeps over them, vertex by vertex in lexicographic order, and keeps those that
-// it crosses, from the lowest up. Inside and outside alternate along it. So the place of an edge in
-// that order, which has the same parity as long as the line crosses it, says on which side the inside
-// is. At each vertex an even number of edges meets, or an outline is open there.
+// An edge that outlines have an even number of times counts as none. Those left cross nowhere and
+// meet in vertices. A line sweeps over them, vertex by vertex in lexicographic order, and keeps
+// those that it crosses, from the lowest up. Inside and outside alternate along it. So the place of
+// an edge in that order, which has the same parity as long as the line crosses it, says on which
+// side the inside is. At each vertex an even number of edges meets, or an outline is open there.
 #pragma once
 
 #include "geometry/point.hpp"
@@ -49,7 +49,7 @@ private:
     /// Inserts the edges of fresh_, which begin at one vertex.
     void insert(std::size_t below, const Visit &visit);
 
-    RecordSort edges_; // region, left, right
+    RecordSort edges_;               // region, left, right
     std::optional<RecordSpool> odd_; // of one region: left, right
     std::optional<RecordSort> ends_; // ... of these: right
     const Host &host_;

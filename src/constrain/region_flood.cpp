@@ -15,8 +15,7 @@ Link RegionFlood::left_of(Delaunay<2> &mesh, const Point<2> &a, const Point<2> &
     Cache<2> &cache = mesh.cache();
     const Link corner = vertex_at(mesh, a);
     const Way way = corner == unset ? Way{} : straight_on(cache, corner, b);
-    if (!way.is_edge ||
-        cache.point(cache.simplex(way.triangle).vertex[(way.corner + 1) % 3]) != b)
+    if (!way.is_edge || cache.point(cache.simplex(way.triangle).vertex[(way.corner + 1) % 3]) != b)
         throw_corrupted("An outline of a region is not an edge of the mesh.");
     return make_link(way.triangle, (way.corner + 2) % 3);
 }

@@ -1,8 +1,8 @@
 // Floods triangles: puts all that can be reached into a region, or takes them out of it.
 //
-// Some triangles at a time, those of one page first. Then the cache is trimmed, so what is still to be
-// looked around is kept as edges by their places, the last one first. What there is no room for goes to
-// a spool.
+// Some triangles at a time, those of one page first. Then the cache is trimmed, so what is still to
+// be looked around is kept as edges by their places, the last one first. What there is no room for
+// goes to a spool.
 #pragma once
 
 #include "constrain/touching_edges.hpp"

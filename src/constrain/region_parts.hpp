@@ -56,8 +56,7 @@ private:
         for (Point<2> *const p : {&a, &b})
             for (double &x : *p) {
                 if (!std::isfinite(x))
-                    throw Error(ABACUS_ERROR_ARGUMENT,
-                                "a coordinate of a region is not finite");
+                    throw Error(ABACUS_ERROR_ARGUMENT, "a coordinate of a region is not finite");
                 x += 0.0; // 0, not -0
             }
         std::uint64_t *const record = sort_.add();

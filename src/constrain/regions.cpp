@@ -67,8 +67,8 @@ bool Regions::flood_outline(RegionNumber region, abacus_region_fault &fault) {
     }
     if (!flood_.run(fault)) return false;
     if (const auto overlap = touching_.overlap()) {
-        fault = {ABACUS_REGION_TWICE, region, overlap->other,
-                 {overlap->place[0], overlap->place[1]}};
+        fault = {
+            ABACUS_REGION_TWICE, region, overlap->other, {overlap->place[0], overlap->place[1]}};
         return false;
     }
     unmark_outside();

@@ -1,8 +1,8 @@
 // Regions of a mesh in the plane: their triangles found from outlines and seeds.
 //
 // Of outlines, the edges with the inside on their left are found (outline_sides.hpp). The triangles
-// there are in the region, those on the right are marked as outside, and the rest is flooded. Where a
-// triangle on the right is in another region there is no room for a mark, and the edge is kept
+// there are in the region, those on the right are marked as outside, and the rest is flooded. Where
+// a triangle on the right is in another region there is no room for a mark, and the edge is kept
 // (touching_edges.hpp).
 #pragma once
 

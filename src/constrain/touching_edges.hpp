@@ -1,5 +1,5 @@
-// Edges between a region and others. Those on the region's outlines are known; a flood from inside must
-// meet the same ones. Where it meets another edge, the other region lies within this one.
+// Edges between a region and others. Those on the region's outlines are known; a flood from inside
+// must meet the same ones. Where it meets another edge, the other region lies within this one.
 #pragma once
 
 #include "geometry/ordered.hpp"

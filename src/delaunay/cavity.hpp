@@ -14,8 +14,8 @@
 // If the mesh is constrained, the cavity ends at fixed edges, and the search has to begin at the
 // triangle that contains the point. What lies beyond a fixed edge is loaded all the same, since its
 // link changes. Only an edge on which the point lies is crossed: it is split, and both halves are
-// fixed. The rest of the rim keeps what is fixed. A new triangle is in the region of the one that was
-// on its edge of the rim.
+// fixed. The rest of the rim keeps what is fixed. A new triangle is in the region of the one that
+// was on its edge of the rim.
 //
 // In space the search may return to a tetrahedron, so it marks what it has seen, and numbers the
 // corners. It goes breadth first, and tests the tetrahedra beyond several facets together. No

@@ -50,7 +50,7 @@ void check_drawing(const abacus_drawing &drawing) {
                        "Give an altitude above 0 and at most 90.");
     if (!(std::isfinite(drawing.contour_interval) && drawing.contour_interval >= 0))
         throw_argument("interval of the contours is negative or not finite");
-    if (!(drawing.max_edge >= 0)) throw_argument("longest edge is negative or not a number");
+    if (!(drawing.extent.max_edge >= 0)) throw_argument("longest edge is negative or not a number");
 }
 
 std::int32_t height_of_shape(std::int32_t width, double shape) {

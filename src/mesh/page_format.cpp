@@ -36,8 +36,7 @@ void PageView<D>::read_header(const unsigned char *bytes, std::size_t size, int 
                         ", not " + std::to_string(PageHeader::expected_version) + ".",
                     "Build the mesh anew with this version of the extension.");
     require(header_.dimension == D && header_.attributes == attributes &&
-                (header_.lined & ~PageHeader::has_regions) <= 2 &&
-                (D == 2 || header_.lined == 0),
+                (header_.lined & ~PageHeader::has_regions) <= 2 && (D == 2 || header_.lined == 0),
             "A simplex page belongs to another kind of mesh.");
     require(header_.simplices <= block_slots<D> && header_.vertices <= page_vertices<D> &&
                 header_.links <= header_.simplices * (D + 1) && header_.codes <= header_.links,
@@ -118,7 +117,8 @@ template <int D> void PageView<D>::read_rest() {
 
 template <int D> void PageView<D>::check_regions() const {
     if (!has_regions()) return;
-    require(regions_.is_not_zero(), "A simplex page has regions, but none of its simplices is in one.");
+    require(regions_.is_not_zero(),
+            "A simplex page has regions, but none of its simplices is in one.");
     for (int s = 0; s < simplices(); ++s)
         require(regions_[s] <= most_regions && (regions_[s] == no_region || !is_ghost(s)),
                 "A simplex page has an impossible number of a region.");

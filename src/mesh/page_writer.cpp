@@ -155,9 +155,9 @@ template <int D> void PageWriter<D>::write(const Key &lower, const Key &upper) {
     header.version = PageHeader::expected_version;
     header.dimension = D;
     header.attributes = static_cast<std::uint8_t>(attributes_);
-    header.lined = static_cast<std::uint8_t>(
-        (fixed_.empty() ? 0 : fixed_width_ / FixedFacets<D>::width) |
-        (regions_.empty() ? 0u : PageHeader::has_regions));
+    header.lined =
+        static_cast<std::uint8_t>((fixed_.empty() ? 0 : fixed_width_ / FixedFacets<D>::width) |
+                                  (regions_.empty() ? 0u : PageHeader::has_regions));
     header.simplices = static_cast<std::uint16_t>(simplices_);
     header.vertices = static_cast<std::uint16_t>(vertices_);
     header.links = static_cast<std::uint16_t>(links_.size());

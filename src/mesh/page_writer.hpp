@@ -23,7 +23,8 @@ public:
     explicit PageWriter(const Host &host)
         : order_(host), patches_(host), prefixes_(host), reached_(host), cut_(host), corners_(host),
           named_(host), links_(host), columns_(host), plans_(host), foreign_(host), parts_(host),
-          link_vertices_(host), fixed_(host), regions_(host), codes_(host), coded_(host), index_(host) {}
+          link_vertices_(host), fixed_(host), regions_(host), codes_(host), coded_(host),
+          index_(host) {}
 
     /// Begins a page of the simplices in the slots [slots, end), whose handles begin with
     /// `first`. Sets `numbered` to the page's vertices and `border` to the inner sides of its
@@ -83,13 +84,13 @@ private:
     Arena<std::uint64_t> parts_;
     ColumnPlan foreign_plan_, parts_plan_;
     Arena<std::uint16_t> link_vertices_;
-    Arena<std::uint8_t> fixed_;  // bits of the simplices; empty if no facet is fixed
-    int fixed_width_ = 0;        // of each
+    Arena<std::uint8_t> fixed_;    // bits of the simplices; empty if no facet is fixed
+    int fixed_width_ = 0;          // of each
     Arena<std::uint64_t> regions_; // of the simplices; empty if none is in one
     ColumnPlan regions_plan_;
-    Arena<std::uint64_t> codes_; // that index_ knows
-    Arena<std::uint16_t> coded_; // their numbers
-    Arena<std::uint16_t> index_; // hash table of codes_
+    Arena<std::uint64_t> codes_;                           // that index_ knows
+    Arena<std::uint16_t> coded_;                           // their numbers
+    Arena<std::uint16_t> index_;                           // hash table of codes_
     alignas(8) unsigned char page_[ABACUS_PAGE_BYTES + 8]; // BitWriter writes beyond
     std::size_t size_ = 0;
 };

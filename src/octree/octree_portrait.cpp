@@ -26,7 +26,7 @@ void set_values(Patch &patch, double value) { std::fill_n(patch.value, patch.cor
 
 template <class Picture>
 void show(const Box<2> &leaf, double value, const abacus_drawing &drawing, Picture &picture) {
-    if (is_too_long<2>(leaf, drawing.max_edge)) return;
+    if (is_too_long<2>(leaf, drawing.extent.max_edge)) return;
     Patch patch;
     patch.corners = 4;
     for (int i = 0; i < 4; ++i) {
@@ -64,7 +64,7 @@ private:
             return;
         }
         Patch patch;
-        if (is_too_long<3>(box, sheet_.max_edge) || !cut(octant, places, patch)) return;
+        if (is_too_long<3>(box, sheet_.extent.max_edge) || !cut(octant, places, patch)) return;
         set_values(patch,
                    sheet_.attribute >= 0 ? reader_.cache().values(h)[sheet_.attribute] : NAN);
         double squares = 0;

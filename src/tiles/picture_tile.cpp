@@ -87,8 +87,7 @@ public:
     SampleQuestion(const abacus_drawing &drawing, const MapPlane &plane, const Samples &samples,
                    Canvas &canvas)
         : attribute_(static_cast<std::uint32_t>(std::max(drawing.attribute, 0))),
-          has_attribute_(drawing.attribute >= 0),
-          max_edge_(drawing.max_edge > 0 ? drawing.max_edge : no_max_edge), plane_(plane),
+          has_attribute_(drawing.attribute >= 0), extent_(drawing.extent), plane_(plane),
           samples_(samples), canvas_(canvas) {}
 
     std::size_t words() const override { return sizeof(Sample) / 8; }
@@ -97,7 +96,7 @@ public:
         CornerValues values(&attribute_, 1);
         abacus_simplex simplex;
         Sample sample{NAN, -1};
-        if (by.reader.locate(place, simplex, has_attribute_ ? &values : nullptr, max_edge_)) {
+        if (by.reader.locate(place, simplex, has_attribute_ ? &values : nullptr, extent_)) {
             sample.spacing = spacing_of(simplex, plane_);
             if (has_attribute_) {
                 const auto weights = barycentric_weights<2>(simplex, place);
@@ -120,7 +119,7 @@ public:
 private:
     const std::uint32_t attribute_;
     const bool has_attribute_;
-    const double max_edge_;
+    const abacus_extent extent_;
     const MapPlane &plane_;
     const Samples &samples_;
     Canvas &canvas_;

@@ -22,7 +22,7 @@ Png terrain_tile(const Host &host, const abacus_facts &facts, const abacus_tile 
         throw Error(ABACUS_ERROR_ARGUMENT, "size or fill of the tile is out of range");
     const auto width = static_cast<std::uint32_t>(kind.width);
     ValueRaster<2> rows = tile_samples(host, facts, window, window.box(), width,
-                                       {kind.attribute, kind.max_edge}, memory);
+                                       {kind.attribute, kind.extent}, memory);
     Picture picture(host, kind.width, kind.width, false);
     for (std::int32_t y = 0; y < kind.width; ++y) {
         const double *const values = rows.next();

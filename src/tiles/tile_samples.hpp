@@ -8,7 +8,7 @@ namespace abacus {
 
 struct SampledValue {
     std::uint32_t attribute;
-    double max_edge; // outside of triangles with a longer edge; 0 = none
+    abacus_extent extent;
 };
 
 /// Row by row, `width` a row and as many rows, at the centres of the pixels of `box`.
@@ -25,7 +25,7 @@ inline ValueRaster<2> tile_samples(const Host &host, const abacus_facts &facts,
     abacus_interpolation how{};
     how.attributes = 1;
     how.attribute[0] = value.attribute;
-    how.max_edge = value.max_edge > 0 ? value.max_edge : no_max_edge;
+    how.extent = value.extent;
     return {host, facts, raster, how, memory.sort, memory.cache};
 }
 

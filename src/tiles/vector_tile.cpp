@@ -1,7 +1,7 @@
 #include "tiles/vector_tile.hpp"
 
-#include "geometry/longer_edge.hpp"
 #include "geometry/tetrahedron_cut.hpp"
+#include "query/pages/extent.hpp"
 #include "query/pages/page_simplex.hpp"
 #include "query/pages/page_values.hpp"
 #include "query/shapes/outline.hpp"
@@ -109,11 +109,7 @@ bool Maker::read(const PageView<2> &page) {
             continue;
         }
         if (!meets_tile(triangle[0].at, triangle[1].at, triangle[2].at)) continue;
-        if (kind_.max_edge > 0 &&
-            has_longer_edge<2>(3, kind_.max_edge, [&](int i) -> const Point<2> & {
-                return page.point(page.corner(s, i));
-            }))
-            continue;
+        if (!is_in<2>(kind_.extent, page, s)) continue;
         if (triangles_.size() == most_tile_triangles) return false;
         for (int i = 0; i < 3; ++i) triangle[i].value = values_.value(page.corner(s, i));
         triangles_.push_back(triangle);
@@ -130,7 +126,7 @@ void Maker::sample() {
     const Box<2> box = window_.wider(1.5 / squares);
     ValueRaster<2> rows =
         tile_samples(host_, facts_, window_, box, points,
-                     {static_cast<std::uint32_t>(kind_.attribute), kind_.max_edge}, memory_);
+                     {static_cast<std::uint32_t>(kind_.attribute), kind_.extent}, memory_);
     constexpr double step = double{tile_extent} / squares;
     std::array<double, points> above{}, here{};
     for (std::uint32_t y = 0; y < points; ++y) {

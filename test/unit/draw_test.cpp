@@ -344,7 +344,7 @@ TEST_F(Draw, LeavesOutLongTriangles) {
         abacus_drawing drawing{};
         drawing.width = 100;
         drawing.attribute = -1;
-        drawing.max_edge = max_edge;
+        drawing.extent.max_edge = max_edge;
         abacus_picture picture{};
         ASSERT_EQ(abacus_draw(memory.table(), &header.facts, &drawing, &picture, &error),
                   ABACUS_OK);
@@ -479,8 +479,8 @@ TEST_F(Draw, RefusesWhatCannotBeDrawn) {
     EXPECT_TRUE(refused([](abacus_drawing &d) { d.lower[0] = NAN; }));
     EXPECT_TRUE(refused([](abacus_drawing &d) { d.upper[1] = infinity; }));
     EXPECT_TRUE(refused([](abacus_drawing &d) { d.exaggeration = NAN; }));
-    EXPECT_TRUE(refused([](abacus_drawing &d) { d.max_edge = NAN; }));
-    EXPECT_TRUE(refused([](abacus_drawing &d) { d.max_edge = -1; }));
+    EXPECT_TRUE(refused([](abacus_drawing &d) { d.extent.max_edge = NAN; }));
+    EXPECT_TRUE(refused([](abacus_drawing &d) { d.extent.max_edge = -1; }));
 }
 
 TEST_F(Draw, MemoryDependsOnThePictureAlone) {

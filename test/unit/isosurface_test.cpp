@@ -84,9 +84,9 @@ struct Expected {
                 is_wanted = is_wanted && std::isfinite(value);
                 (value < query.value ? below : above).push_back(p);
                 for (const auto &other : s.corner)
-                    if (query.max_edge > 0)
-                        is_wanted = is_wanted &&
-                                    is_within<3>(query.max_edge, p, {other[0], other[1], other[2]});
+                    if (query.extent.max_edge > 0)
+                        is_wanted = is_wanted && is_within<3>(query.extent.max_edge, p,
+                                                              {other[0], other[1], other[2]});
             }
             if (!is_wanted || below.empty() || above.empty()) continue;
             std::set<Edge> edges;
@@ -314,11 +314,11 @@ TEST(Isosurface, LeavesOutLongEdgesAndWhatIsBesideAWindow) {
     Solid solid(in_a_cube(2000), from_centre);
     auto query = solid.query(0.9);
     const std::size_t all = solid.surface(query).size();
-    query.max_edge = 0.3;
+    query.extent.max_edge = 0.3;
     std::vector<Triangle> triangles = solid.surface(query);
     expect_all(solid, query, triangles);
     EXPECT_LT(triangles.size(), all);
-    query.max_edge = 0;
+    query.extent.max_edge = 0;
     query.window.kind = ABACUS_BOX_WINDOW;
     for (int i = 0; i < 3; ++i) {
         query.window.lower[i] = 0.4;

@@ -269,7 +269,7 @@ TYPED_TEST(LoadSplit, LocatesAndInterpolatesOnTheSideThatContainsThePlace) {
         const auto all = mesh.simplices(false);
         OpenMeshOf<D> large(mesh, ample), small(mesh, little);
         abacus_interpolation how{};
-        how.max_edge = INFINITY;
+        how.extent = {};
         how.attributes = 1;
         std::mt19937_64 random(31);
         std::uniform_real_distribution<double> shift(-0.1, 0.1);

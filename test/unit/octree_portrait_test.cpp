@@ -71,7 +71,7 @@ TEST(OctreePortrait, leaves_out_what_is_long_or_beside_the_window) {
     const Host h = octree.host->host();
     abacus_drawing d = drawing(32, 32);
     EXPECT_FALSE(draw_octree(h, octree.header, d).is_blank);
-    d.max_edge = 1e-3;
+    d.extent.max_edge = 1e-3;
     EXPECT_TRUE(draw_octree(h, octree.header, d).is_blank);
     d = drawing(32, 32);
     d.lower[0] = d.lower[1] = 2;

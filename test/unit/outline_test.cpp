@@ -91,9 +91,9 @@ std::multiset<Facet<D>> border_by_hand(MeshOf<D> &mesh, const abacus_outline_kin
             corners[i] = &points[i];
         }
         bool is_kept = kind.has_alpha == 0 || has_circumsphere_within<D>(corners, kind.alpha);
-        for (int i = 0; i <= D && kind.max_edge > 0; ++i)
+        for (int i = 0; i <= D && kind.extent.max_edge > 0; ++i)
             for (int j = 0; j < i; ++j)
-                is_kept = is_kept && is_within<D>(kind.max_edge, points[i], points[j]);
+                is_kept = is_kept && is_within<D>(kind.extent.max_edge, points[i], points[j]);
         if (!is_kept) continue;
         for (int left_out = 0; left_out <= D; ++left_out) {
             Facet<D> facet;

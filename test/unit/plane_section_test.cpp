@@ -276,7 +276,7 @@ TEST(PlaneSection, CarriesAnAttribute) {
     EXPECT_GT(missing, 0);
     query.attribute = -1;
     for (const abacus_polygon &p : section(mesh, query)) EXPECT_TRUE(std::isnan(p.value[0]));
-    query.max_edge = 1.1; // the sides of the grid's cells, and no diagonal
+    query.extent.max_edge = 1.1; // the sides of the grid's cells, and no diagonal
     EXPECT_TRUE(section(mesh, query).empty());
 }
 

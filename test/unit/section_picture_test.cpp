@@ -109,12 +109,12 @@ TEST_F(Section, LeavesOutLongTetrahedra) {
     build(pair);
     abacus_drawing drawing = this->drawing(100);
     for (const double z : {0.0, 0.7, 1.0, 2.0}) {
-        drawing.max_edge = 2;
+        drawing.extent.max_edge = 2;
         const Image image = draw(Order({0, 0, z}, {0, 0, 1}), drawing);
         EXPECT_EQ(image(10, 10), full);
         EXPECT_EQ(image(50, 10), ground);
         EXPECT_EQ(image(90, 10), full);
-        drawing.max_edge = 0;
+        drawing.extent.max_edge = 0;
         expect_full(draw(Order({0, 0, z}, {0, 0, 1}), drawing));
     }
 }
@@ -182,7 +182,7 @@ TEST_F(Section, RefusesWhatCannotBeDrawn) {
         EXPECT_TRUE(refused([&](O &o, D &) { o.through[1] = bad; }));
         EXPECT_TRUE(refused([&](O &o, D &) { o.normal[0] = bad; }));
         EXPECT_TRUE(refused([&](O &o, D &) { o.exaggeration = bad; }));
-        EXPECT_TRUE(refused([&](O &, D &d) { d.max_edge = -bad; }) || bad < 0);
+        EXPECT_TRUE(refused([&](O &, D &d) { d.extent.max_edge = -bad; }) || bad < 0);
     }
     EXPECT_TRUE(refused([](O &o, D &) { o.normal[2] = 0; }));
     EXPECT_TRUE(refused([](O &o, D &) { o.exaggeration = 0; }));

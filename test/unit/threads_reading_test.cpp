@@ -79,7 +79,7 @@ abacus_status ask(MeshOf<D> &mesh, Asked asked, const std::vector<InputOf<D>> &p
                   std::uint64_t k = 3) {
     abacus_interpolation how{};
     how.attributes = 1;
-    how.max_edge = std::numeric_limits<double>::infinity();
+    how.extent = {};
     std::vector<std::uint64_t> records;
     for (const InputOf<D> &place : places) {
         records.push_back(std::bit_cast<std::uint64_t>(place.id));

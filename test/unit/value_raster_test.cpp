@@ -138,7 +138,7 @@ TEST(ValueRaster, OfSlivers) {
     ASSERT_EQ(mesh.insert(with_values<2>(points)), ABACUS_OK);
     abacus_interpolation how{};
     how.attributes = 1;
-    how.max_edge = no_max_edge;
+    how.extent = {};
     expect_raster<2>(mesh, {{1e6 - 1, 4e6 - 1e-7}, {1e6 + 101, 4e6 + 2e-6}, 80, 80, 0}, how, ample);
     expect_raster<2>(mesh, {{1e6 - 1, 4e6 - 1}, {1e6 + 101, 4e6 + 5}, 80, 80, 0}, how, ample);
 }

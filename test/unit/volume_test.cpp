@@ -391,7 +391,7 @@ TEST(Volume, LeavesOutLongEdges) {
     mesh.insert_all(raised(points(500, 13), hill));
     other.insert_all(raised(points(500, 14), hill));
     abacus_surface surface = surface_in({});
-    surface.max_edge = 0.08;
+    surface.extent.max_edge = 0.08;
     const auto keep_short = [](const std::vector<Polygon> &triangles) {
         std::vector<Polygon> kept;
         for (const Polygon &t : triangles) {

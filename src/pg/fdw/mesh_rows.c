@@ -195,6 +195,9 @@ end(MeshRows *rows)
 	rows->nearest = NULL;
 }
 
+/* All simplices count. */
+static const abacus_extent all;
+
 static void
 begin_cells(MeshRows *rows, const Bounds *bounds)
 {
@@ -205,7 +208,7 @@ begin_cells(MeshRows *rows, const Bounds *bounds)
 		host_run(host, abacus_cells_open_stretch, &host->table, &reader->header.facts,
 				 bounds->least_code, bounds->greatest_code, &rows->cells);
 	else
-		host_run(host, abacus_cells_open, &host->table, &reader->header.facts, &bounds->window, 0.0, NULL,
+		host_run(host, abacus_cells_open, &host->table, &reader->header.facts, &bounds->window, &all, NULL,
 				 &rows->cells);
 	host_own(host, rows->cells, (void (*) (void *)) abacus_cells_close);
 }
@@ -223,7 +226,7 @@ begin_points(MeshRows *rows, const Bounds *bounds)
 		host_run(host, abacus_faces_open_range, &host->table, &reader->header.facts, &bounds->window,
 				 &range, setting_cache_bytes(), &rows->points);
 	else
-		host_run(host, abacus_faces_open, &host->table, &reader->header.facts, &bounds->window, 0, 0.0,
+		host_run(host, abacus_faces_open, &host->table, &reader->header.facts, &bounds->window, 0, &all,
 				 setting_cache_bytes(), &rows->points);
 	host_own(host, rows->points, (void (*) (void *)) abacus_faces_close);
 }

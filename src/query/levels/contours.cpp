@@ -120,10 +120,8 @@ template <class Take> void Contours::each_triangle(const Page &page, Take take) 
         if (how_.bands == 0 && ranks[0] == ranks[1] && ranks[0] == ranks[2]) continue;
         const ContourCorners corners{&points_[vertices[0]], &points_[vertices[1]],
                                      &points_[vertices[2]]};
-        bool is_short = true;
-        for (int i = 0; how_.max_edge > 0 && i < 3; ++i)
-            is_short = is_short && is_within<2>(how_.max_edge, *corners[i], *corners[(i + 1) % 3]);
-        if (is_short && cut_.take(corners, values, ranks)) take(vertices);
+        if (is_in<2>(how_.extent, page, triangle) && cut_.take(corners, values, ranks))
+            take(vertices);
     }
 }
 

@@ -9,6 +9,7 @@
 #include "query/levels/contour_pieces.hpp"
 #include "query/levels/contour_rims.hpp"
 #include "query/pages/corner_values.hpp"
+#include "query/pages/extent.hpp"
 #include "query/pages/vertex_values.hpp"
 #include "query/scan/window.hpp"
 #include "sort/pacer.hpp"

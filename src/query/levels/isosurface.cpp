@@ -20,8 +20,8 @@ constexpr std::uint64_t number_mask = (std::uint64_t{1} << number_bits) - 1;
 Isosurface::Isosurface(const Host &host, const abacus_facts &facts,
                        const abacus_isosurface_query &query, std::size_t memory)
     : query_(query), is_split_(facts.census.split > 0), host_(host), facts_(facts),
-      filter_(query.window, query.max_edge), vertex_values_(host, facts), pacer_(host),
-      edges_(host), numbers_(host, facts.census.split > 0 ? 8 : 6, memory), pages_made_(host, 1),
+      filter_(query.window, query.extent), vertex_values_(host, facts), pacer_(host), edges_(host),
+      numbers_(host, facts.census.split > 0 ? 8 : 6, memory), pages_made_(host, 1),
       corners_(host, query.carried >= 0 ? 4 : 3), triangles_(host, 1), corners_here_(host) {
     if (!host.spool_fits(most_bytes_a_simplex * static_cast<double>(facts.census.simplices)))
         count();

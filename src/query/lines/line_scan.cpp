@@ -1,6 +1,6 @@
 #include "query/lines/line_scan.hpp"
 
-#include "query/locate/too_long.hpp"
+#include "query/locate/preferred.hpp"
 #include "query/values/weighted_mean.hpp"
 
 #include <algorithm>
@@ -108,13 +108,13 @@ template <int D> std::optional<LinePiece<D>> LineScan<D>::piece_in(Handle h) con
 template <int D> void LineScan<D>::consider(Handle h, const Crossing<D> &enters) {
     const std::optional<Piece> piece = piece_in(h);
     if (!piece || !piece->enters.is_same_place(enters)) return;
-    if (found_ && !is_preferred<D>(piece->simplex, found_->simplex, max_edge_)) return;
+    if (found_ && !is_preferred<D>(piece->simplex, found_->simplex, extent_)) return;
     found_ = piece;
     at_ = h;
 }
 
 template <int D> bool LineScan<D>::hand_out(Piece &piece) {
-    if (is_too_long<D>(piece.simplex, max_edge_)) return true;
+    if (!is_in<D>(extent_, piece.simplex)) return true;
     piece.follows = left_ && left_->is_same_place(piece.enters);
     piece.jumps = piece.follows && !piece.enters.is_end && !piece.enters.has_values_of(*left_);
     // Rounding must not change the order.
@@ -304,7 +304,7 @@ template <int D> void LineScan<D>::sweep() {
                 cache_.poll();
                 key = cache_.visit(key, [&](Handle h) {
                     const std::optional<Piece> piece = piece_in(h);
-                    if (!piece || is_too_long<D>(piece->simplex, max_edge_)) return;
+                    if (!piece || !is_in<D>(extent_, piece->simplex)) return;
                     ahead_.push_back(*piece);
                     std::push_heap(ahead_.begin(), ahead_.end(), later);
                 });

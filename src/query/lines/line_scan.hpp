@@ -66,11 +66,11 @@ template <int D> struct LinePiece {
 template <int D> class LineScan {
 public:
     /// `attribute`: the number of the attribute whose values crossings get; negative: none.
-    /// Simplices with an edge longer than max_edge count as outside.
+    /// Simplices outside of the extent count as outside.
     LineScan(Reader<D> &reader, const Line<D> &line, int attribute = -1,
-             double max_edge = no_max_edge)
+             const abacus_extent &extent = {})
         : reader_(reader), cache_(reader.cache()), line_(line), attribute_(attribute),
-          max_edge_(max_edge), memory_(cache_.host()) {}
+          extent_(extent), memory_(cache_.host()) {}
     LineScan(const LineScan &) = delete;
     LineScan &operator=(const LineScan &) = delete;
 
@@ -107,7 +107,7 @@ private:
     Cache<D> &cache_;
     const Line<D> line_;
     const int attribute_;
-    const double max_edge_;
+    const abacus_extent extent_;
     HostMemory memory_;
     const std::function<bool(const Piece &)> *visit_ = nullptr;
     std::optional<Crossing<D>> left_; // the end of the last piece passed on

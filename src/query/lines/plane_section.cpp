@@ -65,7 +65,7 @@ bool PlaneRegion::may_meet(const Box<3> &box) const {
 
 PlaneSection::PlaneSection(const Host &host, const abacus_facts &facts,
                            const abacus_section_query &query)
-    : plane_(plane_of(query)), values_(host, facts, query.attribute), max_edge_(query.max_edge),
+    : plane_(plane_of(query)), values_(host, facts, query.attribute), extent_(query.extent),
       is_split_(facts.census.split > 0), domain_(domain_of<3>(facts.form)),
       region_(plane_, domain_box<3>(facts.form)), pages_(host, facts, &region_) {}
 
@@ -95,7 +95,7 @@ bool PlaneSection::take(int simplex, abacus_polygon &polygon) const {
     if (!page.is_ghost(simplex)) {
         if (!cut(simplex, polygon)) return false;
     } else {
-        if (!is_bottom(simplex) || is_too_long(simplex, 3)) return false;
+        if (!is_bottom(simplex) || !is_in<3>(extent_, pages_.page(), simplex, 3)) return false;
         if (is_split_ && is_of_fault(simplex)) return false; // the simplex below has this section
         // The facet as seen from inside, which is above.
         for (const int i : {0, 2, 1}) add(page.corner(simplex, i), polygon);
@@ -135,7 +135,7 @@ bool PlaneSection::cut(int simplex, abacus_polygon &polygon) const {
             add(below, vertex, polygon);
         last = is_on ? vertex : -1;
     }
-    return polygon.corners >= 3 && !is_too_long(simplex, 4);
+    return polygon.corners >= 3 && is_in<3>(extent_, pages_.page(), simplex);
 }
 
 /// Whether a ghost's facet is in the plane, with the mesh above it.
@@ -170,16 +170,6 @@ bool PlaneSection::is_of_fault(int ghost) const {
         for (int i = 0; i < 3; ++i) shared += has_corner(other, page.point(page.corner(ghost, i)));
         if (shared == 3) return true;
     }
-    return false;
-}
-
-bool PlaneSection::is_too_long(int simplex, int corners) const {
-    const PageView<3> &page = pages_.page();
-    for (int i = 0; max_edge_ > 0 && i < corners; ++i)
-        for (int j = 0; j < i; ++j)
-            if (!is_within<3>(max_edge_, page.point(page.corner(simplex, i)),
-                              page.point(page.corner(simplex, j))))
-                return true;
     return false;
 }
 

@@ -12,6 +12,7 @@
 
 #include "geometry/cutting_plane.hpp"
 #include "keys/locational_code.hpp"
+#include "query/pages/extent.hpp"
 #include "query/pages/page_values.hpp"
 #include "query/scan/range_scan.hpp"
 
@@ -53,14 +54,13 @@ private:
     bool cut(int simplex, abacus_polygon &polygon) const;
     bool is_bottom(int ghost) const;
     bool is_of_fault(int ghost) const;
-    bool is_too_long(int simplex, int corners) const;
     /// Adds a corner: a vertex, or the place where the edge between two meets the plane.
     void add(int vertex, abacus_polygon &polygon) const;
     void add(int below, int above, abacus_polygon &polygon) const;
 
     const CuttingPlane plane_;
     PageValues<3> values_;
-    const double max_edge_;
+    const abacus_extent extent_;
     const bool is_split_; // vertices at one place are distinguished by their ids
     const Domain<3> domain_;
     const PlaneRegion region_;

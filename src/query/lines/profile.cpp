@@ -5,10 +5,11 @@
 namespace abacus {
 
 template <int D>
-Profile<D>::Profile(Reader<D> &reader, std::uint32_t attribute, Report report, double max_edge)
+Profile<D>::Profile(Reader<D> &reader, std::uint32_t attribute, Report report,
+                    const abacus_extent &extent)
     : reader_(reader), interpolation_(reader.cache().host()), report_(std::move(report)) {
     how_.method = ABACUS_LINEAR;
-    how_.max_edge = max_edge;
+    how_.extent = extent;
     how_.attributes = 1;
     how_.attribute[0] = attribute;
 }
@@ -50,7 +51,7 @@ template <int D> void Profile<D>::put_line(const Point<D> &from, const Point<D> 
     };
     std::optional<Crossing<D>> left; // where the last piece ends
     LineScan<D> scan(reader_, Line<D>::between(from, to), static_cast<int>(how_.attribute[0]),
-                     how_.max_edge);
+                     how_.extent);
     scan.each([&](const LinePiece<D> &piece) {
         const Crossing<D> &in = piece.enters, &out = piece.leaves;
         if (piece.jumps) {

@@ -16,9 +16,9 @@ public:
     /// report(distance, place, value): the value is NaN outside, and where it is missing.
     using Report = std::function<void(double, const Point<D> &, double)>;
 
-    /// Simplices with an edge longer than max_edge count as outside.
+    /// Simplices outside of the extent count as outside.
     Profile(Reader<D> &reader, std::uint32_t attribute, Report report,
-            double max_edge = no_max_edge);
+            const abacus_extent &extent = {});
 
     /// For a path with the corners corner(0) to corner(n - 1); a corner equal to the one before it
     /// is skipped.

@@ -49,9 +49,9 @@ bool has_height(const abacus_simplex &simplex, const CornerValues &heights, cons
 
 class LineOfSight {
 public:
-    LineOfSight(Reader<2> &reader, std::uint32_t attribute, double max_edge,
+    LineOfSight(Reader<2> &reader, std::uint32_t attribute, const abacus_extent &extent,
                 const abacus_sight_end &observer, const abacus_sight_end &target)
-        : reader_(reader), attribute_(attribute), max_edge_(max_edge), from_(find(observer)),
+        : reader_(reader), attribute_(attribute), extent_(extent), from_(find(observer)),
           to_(find(target)) {}
 
     abacus_sight look();
@@ -72,7 +72,7 @@ private:
 
     Reader<2> &reader_;
     const std::uint32_t attribute_;
-    const double max_edge_;
+    const abacus_extent extent_;
     const End from_, to_;
     std::optional<Sample> last_; // in the same triangle as the next one
     double blocked_ = 0;         // the parameter where it is blocked
@@ -82,7 +82,7 @@ End LineOfSight::find(const abacus_sight_end &given) {
     End end{{given.place[0] + 0.0, given.place[1] + 0.0}, {}, {}, 0, 0, 0};
     abacus_simplex simplex;
     CornerValues heights(&attribute_, 1);
-    if (reader_.locate(end.place, simplex, &heights, max_edge_) &&
+    if (reader_.locate(end.place, simplex, &heights, extent_) &&
         has_height(simplex, heights, end.place))
         end.ground = height_in(simplex, heights, end.place);
     if (!given.stands)
@@ -160,7 +160,7 @@ bool LineOfSight::is_blocked(const std::optional<Sample> &sample, bool is_above)
 abacus_sight LineOfSight::look_along(const Line<2> &line) {
     bool is_hidden = false, ends_inside = false;
     if (from_.ground) last_ = Sample{0, from_.ground_above};
-    LineScan<2> scan(reader_, line, static_cast<int>(attribute_), max_edge_);
+    LineScan<2> scan(reader_, line, static_cast<int>(attribute_), extent_);
     scan.each([&](const LinePiece<2> &piece) {
         const auto passes = [&](const Crossing<2> &crossing) {
             std::optional<Sample> sample;
@@ -185,8 +185,8 @@ abacus_sight LineOfSight::look_along(const Line<2> &line) {
 } // namespace
 
 abacus_sight look(Reader<2> &reader, std::uint32_t attribute, const abacus_sight_end &observer,
-                  const abacus_sight_end &target, double max_edge) {
-    return LineOfSight(reader, attribute, max_edge, observer, target).look();
+                  const abacus_sight_end &target, const abacus_extent &extent) {
+    return LineOfSight(reader, attribute, extent, observer, target).look();
 }
 
 } // namespace abacus

@@ -14,9 +14,9 @@
 
 namespace abacus {
 
-/// Ground without a finite height blocks nothing, and neither do triangles with an edge longer than
-/// max_edge.
+/// Ground without a finite height blocks nothing, and neither do triangles outside of the
+/// extent.
 abacus_sight look(Reader<2> &reader, std::uint32_t attribute, const abacus_sight_end &observer,
-                  const abacus_sight_end &target, double max_edge = no_max_edge);
+                  const abacus_sight_end &target, const abacus_extent &extent = {});
 
 } // namespace abacus

@@ -3,7 +3,7 @@
 #include "host/memory.hpp"
 #include "keys/domain_of.hpp"
 #include "points/record.hpp"
-#include "query/locate/too_long.hpp"
+#include "query/locate/preferred.hpp"
 #include "query/pages/describe.hpp"
 
 #include <algorithm>
@@ -162,7 +162,7 @@ template <int D> std::uint64_t Reader<D>::pages_with(const std::uint64_t *vertex
 
 template <int D>
 bool Reader<D>::search_first(const Point<D> &p, abacus_simplex &simplex, CornerValues *values,
-                             double max_edge) {
+                             const abacus_extent &extent) {
     bool found = false;
     is_search_ = true;
     search_pages(p, [&](const Key &page) -> std::optional<Key> {
@@ -170,14 +170,14 @@ bool Reader<D>::search_first(const Point<D> &p, abacus_simplex &simplex, CornerV
                                     [&](const PageView<D> &view, int number, int position) {
                                         abacus_simplex other;
                                         abacus::describe(view, number, cache_.domain(), other);
-                                        if (!found || is_preferred<D>(other, simplex, max_edge))
+                                        if (!found || is_preferred<D>(other, simplex, extent))
                                             abacus::describe(view, number, cache_.domain(), simplex,
                                                              values, vertex_values_);
                                         found = true;
                                         if (position > 0) is_search_ = false;
                                     });
     });
-    return found && !is_too_long<D>(simplex, max_edge);
+    return found && is_in<D>(extent, simplex);
 }
 
 // ---- All meshes ------------------------------------------------------------------------
@@ -190,6 +190,7 @@ void Reader<D>::describe(Handle h, abacus_simplex &simplex, CornerValues *values
         corners.id[i] = cache_.vertices().id(s.vertex[i]);
         corners.point[i] = &cache_.point(s.vertex[i]);
     }
+    corners.region = cache_.region(h);
     const auto &order = abacus::describe(corners, cache_.code(s), s.is_ghost(), simplex);
     if (values == nullptr) return;
     for (int i = 0; i < s.finite_vertices(); ++i)
@@ -200,24 +201,24 @@ void Reader<D>::describe(Handle h, abacus_simplex &simplex, CornerValues *values
 
 template <int D>
 bool Reader<D>::locate(const Point<D> &p, abacus_simplex &simplex, CornerValues *values,
-                       double max_edge) {
+                       const abacus_extent &extent) {
     if (!convex_) {
         // When the cache is full, a walk needs pages that were evicted; a search keeps other pages.
         const bool is_walk = !is_search_ && cache_.counters.evictions == 0;
         const Handle inside = is_walk ? walk_to_inside(p) : no_handle;
-        if (inside == no_handle) return search_first(p, simplex, values, max_edge);
+        if (inside == no_handle) return search_first(p, simplex, values, extent);
         describe(inside, simplex, values);
-        return !is_too_long<D>(simplex, max_edge);
+        return is_in<D>(extent, simplex);
     }
     std::uint64_t code = cache_.domain().code(p);
-    if (glance(p, code, simplex, values)) return !is_too_long<D>(simplex, max_edge);
+    if (glance(p, code, simplex, values)) return is_in<D>(extent, simplex);
     const Handle h = find(p, code);
     const bool is_inside = h != no_handle && !cache_.simplex(h).is_ghost();
     is_no_glance_ = !is_inside || walk_.ends_on_facet();
     if (!is_inside) return false;
     describe(h, simplex, values);
-    if (walk_.ends_on_facet()) first_around(p, h, simplex, values, max_edge);
-    return !is_too_long<D>(simplex, max_edge);
+    if (walk_.ends_on_facet()) first_around(p, h, simplex, values, extent);
+    return is_in<D>(extent, simplex);
 }
 
 template <int D>
@@ -242,11 +243,11 @@ bool Reader<D>::glance(const Point<D> &p, std::uint64_t &code, abacus_simplex &s
 
 template <int D>
 void Reader<D>::first_around(const Point<D> &p, Handle h, abacus_simplex &simplex,
-                             CornerValues *values, double max_edge) {
+                             CornerValues *values, const abacus_extent &extent) {
     flood_around(p, h, [&](Handle met) {
         abacus_simplex other;
         describe(met, other);
-        if (is_preferred<D>(other, simplex, max_edge)) describe(met, simplex, values);
+        if (is_preferred<D>(other, simplex, extent)) describe(met, simplex, values);
     });
 }
 

@@ -9,6 +9,7 @@
 #pragma once
 
 #include "query/locate/glance.hpp"
+#include "query/pages/extent.hpp"
 #include "query/pages/page_boxes.hpp"
 #include "query/pages/page_search.hpp"
 #include "query/pages/pages_of_code.hpp"
@@ -19,12 +20,9 @@
 
 #include <abacus/simplex.h>
 #include <functional>
-#include <limits>
 #include <optional>
 
 namespace abacus {
-
-inline constexpr double no_max_edge = std::numeric_limits<double>::infinity();
 
 template <int D> class Reader {
 public:
@@ -36,10 +34,10 @@ public:
            bool in_order = false);
 
     /// The simplex that contains p; of several, the first by comes_before(). False
-    /// outside the hull. `values` gets the values at its corners. Simplices with an edge longer
-    /// than `max_edge` count as outside.
+    /// outside the hull. `values` gets the values at its corners. Simplices outside of the
+    /// extent count as outside.
     bool locate(const Point<D> &p, abacus_simplex &simplex, CornerValues *values = nullptr,
-                double max_edge = no_max_edge);
+                const abacus_extent &extent = {});
     /// The neighbour across facet `facet` of the simplex with this code and these ids.
     /// False at the hull; throws an Error (argument) if there is no such simplex, or several,
     /// as there may be where points have equal ids.
@@ -132,7 +130,7 @@ private:
     PageSearch<D> &page_search();
     /// The first of all simplices that contain p, found in the pages themselves.
     bool search_first(const Point<D> &p, abacus_simplex &simplex, CornerValues *values,
-                      double max_edge);
+                      const abacus_extent &extent);
     /// The simplex with this code and these ids; throws as walk() does.
     Handle named(std::uint64_t code, const std::int64_t *ids);
     /// Whether these are the ids of the simplex's corners, in any order.
@@ -143,7 +141,7 @@ private:
     template <class Visit> void flood_around(const Point<D> &p, Handle h, Visit visit);
     /// The first of all simplices around a point on a facet of h, which `simplex` describes.
     void first_around(const Point<D> &p, Handle h, abacus_simplex &simplex, CornerValues *values,
-                      double max_edge);
+                      const abacus_extent &extent);
 
     const abacus_facts facts_;
     std::uint64_t size_; // simplices and ghosts

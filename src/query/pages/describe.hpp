@@ -4,6 +4,7 @@
 #pragma once
 
 #include "geometry/point.hpp"
+#include "mesh/fixed_facets.hpp"
 #include "mesh/simplex.hpp"
 
 #include <abacus/simplex.h>
@@ -37,6 +38,7 @@ template <int D> inline constexpr EvenOrders<D> even_orders;
 template <int D> struct DescribedCorners {
     std::array<std::int64_t, D + 1> id;
     std::array<const Point<D> *, D + 1> point;
+    RegionNumber region = no_region;
 };
 
 /// Returns which of the corners is returned first, second, and so on.
@@ -64,6 +66,7 @@ const typename EvenOrders<D>::Order &describe(const DescribedCorners<D> &corners
         }
     }
     out.code = code;
+    out.region = corners.region;
     out.ghost = ghost;
     const auto &order = even_orders<D>.find(first, second);
     for (int i = 0; i < D + !ghost; ++i) {

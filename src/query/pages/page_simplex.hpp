@@ -40,6 +40,7 @@ const typename EvenOrders<D>::Order &describe(const PageView<D> &page, int simpl
         corners.id[i] = page.id(vertex);
         corners.point[i] = &page.point(vertex);
     }
+    corners.region = page.region(simplex);
     return describe(corners, code_of(page, simplex, domain), ghost, description);
 }
 

@@ -1,8 +1,8 @@
 #include "query/pictures/portrait.hpp"
 
 #include "draw/section.hpp"
-#include "geometry/longer_edge.hpp"
 #include "geometry/map_plane.hpp"
+#include "query/pages/extent.hpp"
 #include "query/pages/page_values.hpp"
 #include "query/scan/range_scan.hpp"
 #include "query/scan/simplex_labels.hpp"
@@ -25,7 +25,7 @@ protected:
     MeshView(const Host &host, const abacus_facts &facts, const abacus_drawing &drawing)
         : label_(drawing.attribute - static_cast<int>(facts.columns.attributes)),
           labels_(host, facts), values_(host, facts, label_ < 0 ? drawing.attribute : -1),
-          max_edge_(drawing.max_edge) {}
+          extent_(drawing.extent) {}
 
     double value(int vertex) const { return values_.value(vertex); }
     /// Sets the values of a patch to the simplex's label, if the drawing shows a label.
@@ -33,18 +33,16 @@ protected:
         if (label_ >= 0)
             std::fill_n(patch.value, patch.corners, labels_.of_page(page, simplex)[label_]);
     }
-    /// Whether the drawing leaves out the simplex with these first `n` corners.
-    bool is_too_long(const PageView<D> &page, int simplex, int n) const {
-        return max_edge_ > 0 && has_longer_edge<D>(n, max_edge_, [&](int i) -> const Point<D> & {
-                   return page.point(page.corner(simplex, i));
-               });
+    /// Whether the drawing has the simplex with these first `n` corners.
+    bool is_shown(const PageView<D> &page, int simplex, int n) const {
+        return is_in<D>(extent_, page, simplex, n);
     }
 
 private:
     const int label_; // its number; negative: there is an attribute, or nothing
     SimplexLabels<D> labels_;
     PageValues<D> values_;
-    double max_edge_;
+    abacus_extent extent_;
 };
 
 /// The triangles of a mesh.
@@ -56,7 +54,7 @@ public:
         : MeshView(host, facts, drawing), plane_(drawing.is_geographic != 0) {}
 
     bool show(const PageView<2> &page, int simplex, Patch &patch) {
-        if (page.is_ghost(simplex) || is_too_long(page, simplex, 3)) return false;
+        if (page.is_ghost(simplex) || !is_shown(page, simplex, 3)) return false;
         for (int i = 0; i < 3; ++i) {
             const int v = page.corner(simplex, i);
             const Point<2> p = plane_.project(page.point(v));
@@ -90,7 +88,7 @@ public:
         const int finite = page.is_ghost(simplex) ? 3 : 4;
         return (finite == 3 ? cut<cut_ghost, 3>(page, simplex, patch)
                             : cut<cut_tetrahedron, 4>(page, simplex, patch)) &&
-               !is_too_long(page, simplex, finite);
+               is_shown(page, simplex, finite);
     }
 
 private:

@@ -16,7 +16,7 @@ public:
                 const abacus_drawing &drawing)
         : host_(host), attribute_(drawing.attribute), vertex_values_(host, facts),
           box_(box_of(drawing)), camera_(camera, drawing, box_ ? *box_ : domain_box<3>(facts.form)),
-          filter_(window_of(box_), drawing.max_edge), pages_(host, facts, filter_.region()),
+          filter_(window_of(box_), drawing.extent), pages_(host, facts, filter_.region()),
           pacer_(host), total_(box_ ? 0 : facts.census.simplices + facts.census.ghosts) {
         if (camera_.has_parallel_rays()) fit();
     }

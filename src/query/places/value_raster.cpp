@@ -1,10 +1,10 @@
 #include "query/places/value_raster.hpp"
 
 #include "geometry/facet_order.hpp"
-#include "geometry/longer_edge.hpp"
 #include "geometry/map_plane.hpp"
 #include "points/record.hpp"
 #include "query/locate/hull_box.hpp"
+#include "query/pages/extent.hpp"
 #include "query/pages/page_flood.hpp"
 #include "query/pages/page_simplex.hpp"
 #include "query/places/places.hpp"
@@ -254,10 +254,7 @@ template <int D> void ValueRaster<D>::fill_from(const PageView<D> &page, int sim
         const auto in_row = static_cast<std::uint32_t>(row);
         const Columns columns = columns_of(corners, box, centre(in_row, 0));
         if (columns.first > columns.last) continue;
-        if (!is_wanted && how_.max_edge != no_max_edge &&
-            has_longer_edge<D>(D + 1, how_.max_edge,
-                               [&](int i) -> const Point<D> & { return *corners[i]; }))
-            return;
+        if (!is_wanted && !is_in<D>(how_.extent, page.region(simplex), corners)) return;
         is_wanted = true;
         fill_row(page, simplex, in_row, columns);
     }

@@ -1,6 +1,7 @@
-// Selects simplices of a page: those that meet a window and have no edge longer than a limit.
+// Selects simplices of a page: those that meet a window, and count.
 #pragma once
 
+#include "query/pages/extent.hpp"
 #include "query/pages/page_simplex.hpp"
 #include "query/scan/window.hpp"
 
@@ -8,9 +9,8 @@ namespace abacus {
 
 template <int D> class CellFilter {
 public:
-    /// Simplices with an edge longer than max_edge are not wanted, unless that is 0.
-    CellFilter(const abacus_window &window, double max_edge)
-        : window_(window), max_edge_(max_edge) {}
+    CellFilter(const abacus_window &window, const abacus_extent &extent)
+        : window_(window), extent_(extent) {}
 
     /// The region of the window; null: the whole mesh.
     const Region<D> *region() const { return window_.region(); }
@@ -18,16 +18,12 @@ public:
     /// For a simplex that is not a ghost.
     bool wants(const PageView<D> &page, int simplex) const {
         const Corners<D> corners = corners_of(page, simplex);
-        if (!window_.meets(corners)) return false;
-        for (int i = 0; max_edge_ > 0 && i <= D; ++i)
-            for (int j = 0; j < i; ++j)
-                if (!is_within<D>(max_edge_, *corners[i], *corners[j])) return false;
-        return true;
+        return window_.meets(corners) && is_in<D>(extent_, page.region(simplex), corners);
     }
 
 private:
     const Window<D> window_;
-    const double max_edge_;
+    const abacus_extent extent_;
 };
 
 } // namespace abacus

@@ -7,8 +7,8 @@ namespace abacus {
 
 template <int D>
 CellScan<D>::CellScan(const Host &host, const abacus_facts &facts, const abacus_window &window,
-                      double max_edge, const abacus_range *label)
-    : domain_(domain_of<D>(facts.form)), filter_(window, max_edge), vertex_values_(host, facts) {
+                      const abacus_extent &extent, const abacus_range *label)
+    : domain_(domain_of<D>(facts.form)), filter_(window, extent), vertex_values_(host, facts) {
     typename RangeScan<D>::Wants wants;
     if (label != nullptr) {
         label_.emplace(host, facts, *label);
@@ -20,8 +20,8 @@ CellScan<D>::CellScan(const Host &host, const abacus_facts &facts, const abacus_
 template <int D>
 CellScan<D>::CellScan(const Host &host, const abacus_facts &facts, std::uint64_t least,
                       std::uint64_t greatest)
-    : domain_(domain_of<D>(facts.form)), filter_({}, 0), vertex_values_(host, facts), least_(least),
-      greatest_(greatest) {
+    : domain_(domain_of<D>(facts.form)), filter_({}, {}), vertex_values_(host, facts),
+      least_(least), greatest_(greatest) {
     stretch_.emplace(host, facts, least, greatest);
 }
 

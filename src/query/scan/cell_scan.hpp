@@ -16,10 +16,10 @@ namespace abacus {
 
 template <int D> class CellScan {
 public:
-    /// Simplices with an edge longer than max_edge are left out, unless that is 0, and those whose
+    /// Simplices outside of the extent are left out, and those whose
     /// label is not within a range, unless that is null.
     CellScan(const Host &host, const abacus_facts &facts, const abacus_window &window,
-             double max_edge, const abacus_range *label = nullptr);
+             const abacus_extent &extent, const abacus_range *label = nullptr);
 
     /// Those with codes from `least` to `greatest`, page by page in key order.
     CellScan(const Host &host, const abacus_facts &facts, std::uint64_t least,

@@ -2,6 +2,7 @@
 
 #include "blocks/bit_column.hpp"
 #include "geometry/direction.hpp"
+#include "query/locate/edges_along.hpp"
 #include "query/pages/page_simplex.hpp"
 
 #include <algorithm>
@@ -22,13 +23,20 @@ typename RangeScan<D>::Wants pages_with(const std::optional<abacus_range> &range
     };
 }
 
+/// The region on the left of the edge from a to b.
+RegionNumber region_across(Reader<2> &reader, const Point<2> &a, const Point<2> &b) {
+    const std::optional<Link> corner = corner_at(reader, a);
+    if (!corner) throw_corrupted("An edge has no vertex where it begins.");
+    return reader.cache().region(straight_on(reader.cache(), *corner, b).triangle);
+}
+
 } // namespace
 
 template <int D>
 FaceScan<D>::FaceScan(const Host &host, const abacus_facts &facts, const abacus_window &window,
-                      int corners, double max_edge, std::size_t cache_bytes,
+                      int corners, const abacus_extent &extent, std::size_t cache_bytes,
                       std::optional<abacus_range> range)
-    : host_(host), facts_(facts), corners_(corners), max_edge_(max_edge), cache_bytes_(cache_bytes),
+    : host_(host), facts_(facts), corners_(corners), extent_(extent), cache_bytes_(cache_bytes),
       range_(range), window_(window), vertex_values_(host, facts),
       pages_(host, facts, window_.region(), pages_with<D>(range, vertex_values_)), memory_(host),
       known_(&memory_) {}
@@ -69,11 +77,22 @@ template <int D> void FaceScan<D>::compare_values() {
     }
 }
 
-template <int D> bool FaceScan<D>::is_wanted() const {
+template <int D> bool FaceScan<D>::touches_region() {
+    if (extent_.region == no_region || page().region(simplex_) == extent_.region) return true;
+    if constexpr (D == 2) {
+        if (!is_fixed()) return false; // the region is the same beyond
+        if (!reader_) reader_.emplace(host_, facts_, cache_bytes_);
+        return region_across(*reader_, point(0), point(1)) == extent_.region ||
+               region_across(*reader_, point(1), point(0)) == extent_.region;
+    }
+    return false;
+}
+
+template <int D> bool FaceScan<D>::is_wanted() {
     if (range_ && !is_in_range_[vertices_[0]]) return false;
     if (corners_ == 1) return window_.contains(point(0));
-    if (max_edge_ > 0 && !is_within<D>(max_edge_, point(0), point(1))) return false;
-    return window_.meets(point(0), point(1));
+    if (extent_.max_edge > 0 && !is_within<D>(extent_.max_edge, point(0), point(1))) return false;
+    return window_.meets(point(0), point(1)) && touches_region();
 }
 
 template <int D> std::size_t FaceScan<D>::place(const FaceCorners &face) {

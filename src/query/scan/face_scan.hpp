@@ -26,14 +26,15 @@ namespace abacus {
 
 template <int D> class FaceScan {
 public:
-    /// Faces of one corner, or of two, which are then at most max_edge apart, unless that is 0.
+    /// Faces of one corner, or of two, which are then at most as far apart as edges may be long, of
+    /// simplices in the extent's region.
     FaceScan(const Host &host, const abacus_facts &facts, const abacus_window &window, int corners,
-             double max_edge, std::size_t cache_bytes)
-        : FaceScan(host, facts, window, corners, max_edge, cache_bytes, std::nullopt) {}
+             const abacus_extent &extent, std::size_t cache_bytes)
+        : FaceScan(host, facts, window, corners, extent, cache_bytes, std::nullopt) {}
     /// Vertices of which an attribute is within a range.
     FaceScan(const Host &host, const abacus_facts &facts, const abacus_window &window,
              const abacus_range &range, std::size_t cache_bytes)
-        : FaceScan(host, facts, window, 1, 0, cache_bytes, range) {}
+        : FaceScan(host, facts, window, 1, {}, cache_bytes, range) {}
 
     /// Goes to the next face; false after the last.
     bool advance();
@@ -51,7 +52,8 @@ public:
 
 private:
     FaceScan(const Host &host, const abacus_facts &facts, const abacus_window &window, int corners,
-             double max_edge, std::size_t cache_bytes, std::optional<abacus_range> range);
+             const abacus_extent &extent, std::size_t cache_bytes,
+             std::optional<abacus_range> range);
 
     /// Vertices of different ids may be at one place.
     struct Corner {
@@ -64,7 +66,9 @@ private:
 
     bool take(int simplex, unsigned face);
     void compare_values();
-    bool is_wanted() const;
+    bool is_wanted();
+    /// Whether a simplex at the current face is in the extent's region.
+    bool touches_region();
     /// Whether the current face belongs to a ghost of the page.
     bool is_of_ghost(int ghost);
     /// The ghost to which it belongs, by its corners in order; nothing if the direction leads into
@@ -85,7 +89,7 @@ private:
     const Host &host_;
     const abacus_facts facts_;
     const int corners_;
-    const double max_edge_;
+    const abacus_extent extent_;
     const std::size_t cache_bytes_;
     const std::optional<abacus_range> range_;
     const Window<D> window_;

@@ -9,8 +9,8 @@ namespace abacus {
 
 namespace {
 
-// Triangles of a region in a page: the region, 0, how many. An edge of its border: the region, 1, 0,
-// both ends with the region on the left.
+// Triangles of a region in a page: the region, 0, how many. An edge of its border: the region, 1,
+// 0, both ends with the region on the left.
 enum Kind : std::uint64_t { are_triangles, is_edge };
 constexpr std::size_t size_words = 7, size_key = 2;
 

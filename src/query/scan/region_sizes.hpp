@@ -1,8 +1,8 @@
-// How large the regions of a mesh in the plane are: their triangles, the edges of their borders, and
-// their areas.
+// How large the regions of a mesh in the plane are: their triangles, the edges of their borders,
+// and their areas.
 //
-// The area is summed over the border (the shoelace formula). Products are taken without rounding, and
-// so is their sum (geometry/exact_sum.hpp).
+// The area is summed over the border (the shoelace formula). Products are taken without rounding,
+// and so is their sum (geometry/exact_sum.hpp).
 #pragma once
 
 #include "query/locate/reader.hpp"

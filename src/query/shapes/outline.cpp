@@ -12,7 +12,7 @@ namespace abacus {
 namespace {
 
 Kept kept_by(const abacus_outline_kind &kind) {
-    Kept kept{kind.max_edge, std::nullopt};
+    Kept kept{kind.extent, std::nullopt};
     if (kind.has_alpha != 0) kept.alpha = kind.alpha;
     return kept;
 }

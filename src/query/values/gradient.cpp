@@ -112,7 +112,7 @@ bool gradient_at(Reader<D> &reader, const abacus_interpolation &what, const Poin
                  double *gradient) {
     abacus_simplex simplex;
     CornerValues carried(what.attribute, 1);
-    if (!reader.locate(p, simplex, &carried, what.max_edge)) return false;
+    if (!reader.locate(p, simplex, &carried, what.extent)) return false;
     std::array<double, D + 1> values;
     bool is_finite = true;
     for (int i = 0; i <= D; ++i) {

@@ -22,7 +22,7 @@ bool Interpolation<D>::weigh_corners(Reader<D> &reader, const abacus_interpolati
                                      const Point<D> &p) {
     abacus_simplex simplex;
     CornerValues carried(what.attribute, what.attributes);
-    if (!reader.locate(p, simplex, &carried, what.max_edge)) return false;
+    if (!reader.locate(p, simplex, &carried, what.extent)) return false;
     const std::array<double, D + 1> weights = barycentric_weights<D>(simplex, p);
     for (int i = 0; i <= D; ++i)
         add(what, simplex.id[i], weights[i], [&](std::uint32_t n) { return carried.value(i, n); });
@@ -34,8 +34,7 @@ bool Interpolation<D>::weigh_natural(Reader<D> &reader, const abacus_interpolati
                                      const Point<D> &p) {
     require_natural_neighbours(reader);
     abacus_simplex simplex;
-    if (what.max_edge != no_max_edge && !reader.locate(p, simplex, nullptr, what.max_edge))
-        return false;
+    if (!is_all(what.extent) && !reader.locate(p, simplex, nullptr, what.extent)) return false;
     const Handle h = reader.simplex_around(p);
     Cache<D> &cache = reader.cache();
     if (h == no_handle || cache.simplex(h).is_ghost()) return false;
@@ -86,7 +85,7 @@ bool Interpolation<D>::weigh(Reader<D> &reader, const abacus_interpolation &what
         break;
     case ABACUS_NEAREST:
         is_inside = what.outside == ABACUS_OUTSIDE_NOTHING &&
-                    reader.locate(p, simplex, nullptr, what.max_edge) &&
+                    reader.locate(p, simplex, nullptr, what.extent) &&
                     weigh_nearest(reader, what, p);
         break;
     }

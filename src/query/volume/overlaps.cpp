@@ -55,8 +55,8 @@ private:
 };
 
 Overlaps::Overlaps(const Host &host, const abacus_facts &facts, std::uint32_t attribute,
-                   double max_edge, const Box<2> &window, std::size_t cache_bytes)
-    : host_(host), facts_(facts), attribute_(static_cast<int>(attribute)), max_edge_(max_edge),
+                   const abacus_extent &extent, const Box<2> &window, std::size_t cache_bytes)
+    : host_(host), facts_(facts), attribute_(static_cast<int>(attribute)), extent_(extent),
       window_(window), reader_(host, facts, cache_bytes) {
     if (!reader_.is_convex())
         search_.emplace(host, page_attributes(facts.columns), cache_bytes / 2);
@@ -212,9 +212,7 @@ void Overlaps::show(const Asked &t, const Corners<2> &corners, const std::array<
     Box<2> box;
     for (const Point<2> *corner : corners) box.extend(*corner);
     if (!box.meets(t.box) || !overlap(t.corners, corners)) return;
-    for (int i = 0; max_edge_ > 0 && i < 3; ++i)
-        if (!is_within<2>(max_edge_, *corners[i], *corners[(i + 1) % 3])) return;
-    visit(corners, values);
+    if (is_in<2>(extent_, no_region, corners)) visit(corners, values);
 }
 
 } // namespace abacus

@@ -29,10 +29,10 @@ namespace abacus {
 
 class Overlaps {
 public:
-    /// `attribute`: of the values handed out. Triangles with an edge longer than max_edge are left
+    /// `attribute`: of the values handed out. Triangles outside of the extent are left
     /// out, unless that is 0.
-    Overlaps(const Host &host, const abacus_facts &facts, std::uint32_t attribute, double max_edge,
-             const Box<2> &window, std::size_t cache_bytes);
+    Overlaps(const Host &host, const abacus_facts &facts, std::uint32_t attribute,
+             const abacus_extent &extent, const Box<2> &window, std::size_t cache_bytes);
 
     /// Gets a triangle of positive orientation and the values at its corners.
     using Visit = std::function<void(const Corners<2> &, const std::array<double, 3> &)>;
@@ -67,7 +67,7 @@ private:
     const Host &host_;
     const abacus_facts facts_;
     const int attribute_;
-    const double max_edge_;
+    const abacus_extent extent_;
     const Box<2> window_;
     Reader<2> reader_;
     std::optional<PageSearch<2>> search_; // of a mesh that is not Delaunay

@@ -113,7 +113,7 @@ void each_simplex(const Host &host, const abacus_facts &facts, const abacus_surf
     Pacer pacer(host);
     pacer.begin(ABACUS_PHASE_SCANNING,
                 window.kind == ABACUS_NO_WINDOW ? facts.census.simplices : 0);
-    CellScan<D> cells(host, facts, window, surface.max_edge);
+    CellScan<D> cells(host, facts, window, surface.extent);
     CornerValues values(&surface.attribute, 1);
     abacus_simplex simplex;
     std::uint64_t seen = 0;
@@ -247,7 +247,8 @@ abacus_volume volume_between(const Host &host, const abacus_facts &facts,
                              const abacus_facts &other, std::uint32_t other_attribute,
                              std::size_t cache_bytes) {
     const Box<2> window = box_of<2>(surface.window);
-    Overlaps overlaps(other_host, other, other_attribute, surface.max_edge, window, cache_bytes);
+    const abacus_extent extent{surface.extent.max_edge, no_region}; // regions are the mesh's own
+    Overlaps overlaps(other_host, other, other_attribute, extent, window, cache_bytes);
     // A small window needs only its own pages, not those of the hull.
     const abacus_window around =
         surface.window.kind == ABACUS_NO_WINDOW ? window_of(overlaps.around_all()) : surface.window;

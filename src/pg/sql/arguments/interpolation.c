@@ -32,26 +32,13 @@ interpolation_of_null(FunctionCallInfo fcinfo, int given)
 	return false;
 }
 
-void
-interpolation_max_edge(FunctionCallInfo fcinfo, int argument, abacus_interpolation *how)
-{
-	double		value = PG_ARGISNULL(argument) ? 0 : PG_GETARG_FLOAT8(argument);
-
-	if (!isfinite(value) || value < 0)
-		ereport(ERROR,
-				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
-				 errmsg("max_edge must be a finite number, at least 0")));
-	how->max_edge = value > 0 ? value : INFINITY;
-}
-
-/* Reads the arguments method, outside and max_edge, which follow one another. */
+/* Reads the arguments method and outside, which follow one another. */
 void
 interpolation_how(FunctionCallInfo fcinfo, int method, abacus_interpolation *how)
 {
 	how->method = word_argument(fcinfo, method, methods, "method", "Use linear, natural or nearest.");
 	how->outside = word_argument(fcinfo, method + 1, outsides, "outside",
 						"Use null, or nearest for the value of the nearest vertex.");
-	interpolation_max_edge(fcinfo, method + 2, how);
 }
 
 /* One attribute, by its name; if no name is given, the only one. */

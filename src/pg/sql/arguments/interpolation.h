@@ -11,8 +11,6 @@
 
 extern bool interpolation_of_null(FunctionCallInfo fcinfo, int given);
 extern void interpolation_how(FunctionCallInfo fcinfo, int method, abacus_interpolation *how);
-extern void interpolation_max_edge(FunctionCallInfo fcinfo, int argument,
-								   abacus_interpolation *how);
 extern void interpolation_attribute(FunctionCallInfo fcinfo, int argument,
 									abacus_names names, abacus_interpolation *how);
 extern void interpolation_attributes(FunctionCallInfo fcinfo, int argument,

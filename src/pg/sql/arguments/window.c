@@ -1,6 +1,6 @@
 /*
  * window.c: the part of a mesh that a call asks for: a box, which may be flat, or a ball; and which
- * simplices in it, by the length of edges and by a label.
+ * simplices in it, by a label.
  */
 #include "postgres.h"
 
@@ -113,20 +113,6 @@ window_arguments(FunctionCallInfo fcinfo, int first, WindowForm kind,
 				 errhint("Leave both out for all of the %s.", type_name(form->type))));
 	else
 		window_of_ball(form, PG_GETARG_ARRAYTYPE_P(first), PG_GETARG_FLOAT8(first + 1), window);
-}
-
-/* The longest edge to return, or that simplices may have; 0 if any length is allowed. */
-double
-window_max_edge(FunctionCallInfo fcinfo, int argument)
-{
-	double		value = PG_ARGISNULL(argument) ? 0 : PG_GETARG_FLOAT8(argument);
-
-	if (!isfinite(value) || value < 0)
-		ereport(ERROR,
-				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
-				 errmsg("max_edge must be a finite number, at least 0"),
-				 errhint("Leave it out, or give 0, for edges of any length.")));
-	return value;
 }
 
 /*

@@ -18,7 +18,6 @@ typedef enum WindowForm
 
 extern void window_arguments(FunctionCallInfo fcinfo, int first, WindowForm kind,
 							 const abacus_form *form, abacus_window *window);
-extern double window_max_edge(FunctionCallInfo fcinfo, int argument);
 extern bool window_label(FunctionCallInfo fcinfo, int first, abacus_names names,
 						 abacus_range *range);
 extern bool window_attribute(FunctionCallInfo fcinfo, int first, abacus_names names,

@@ -193,7 +193,7 @@ bound(EdgeRows *edges, const abacus_window *window)
 
 /* The edges of the window, whether they are fixed or not. */
 static NamedRows *
-read_window(Reader *reader, const abacus_window *window, double max_edge)
+read_window(Reader *reader, const abacus_window *window, const abacus_extent *extent)
 {
 	static const NamedColumn columns[] = {
 		{"v0", INT8OID}, {"v1", INT8OID}, {"x0", FLOAT8OID}, {"y0", FLOAT8OID}, {"x1", FLOAT8OID},
@@ -205,7 +205,7 @@ read_window(Reader *reader, const abacus_window *window, double max_edge)
 	abacus_edge edge;
 	double		ends[4];
 
-	host_run(host, abacus_faces_open, &host->table, &reader->header.facts, window, true, max_edge,
+	host_run(host, abacus_faces_open, &host->table, &reader->header.facts, window, true, extent,
 			 setting_cache_bytes(), &faces);
 	host_own(host, faces, (void (*) (void *)) abacus_faces_close);
 	while (host_run(host, abacus_faces_next_edge, faces, &edge, ends) != ABACUS_END)
@@ -286,11 +286,11 @@ fixed_edges_fault(Oid mesh, uint64 fixed, uint64 soft)
  * lines, kind, and, if wanted, the coordinates of both ends in an array.
  */
 void
-fixed_edges_put(Reader *reader, const abacus_window *window, double max_edge, bool with_ends,
+fixed_edges_put(Reader *reader, const abacus_window *window, const abacus_extent *extent, bool with_ends,
 				ReturnSetInfo *set)
 {
 	const MeshPages *pages = mesh_pages(reader->host);
-	bool		is_part = window->kind != ABACUS_NO_WINDOW || max_edge > 0;
+	bool		is_part = window->kind != ABACUS_NO_WINDOW || extent->max_edge > 0 || extent->region > 0;
 	EdgeRows	edges = {0};
 	NamedRows  *part = NULL;
 	Oid			table;
@@ -304,13 +304,13 @@ fixed_edges_put(Reader *reader, const abacus_window *window, double max_edge, bo
 	edges.rows = named_rows_create(EDGES_ON_LINES, edge_columns, lengthof(edge_columns));
 	bound(&edges, window);
 	level = plain_names_begin(false);
-	if (is_part && fixed_window_read(reader, edges.cached, window, max_edge, table, put_window_edge, &edges))
+	if (is_part && fixed_window_read(reader, edges.cached, window, extent, table, put_window_edge, &edges))
 		is_part = false;
 	else
 		add_lines(&edges, lines_table_name(table));
 	named_rows_register(edges.rows);
 	if (is_part)
-		part = read_window(reader, window, max_edge);
+		part = read_window(reader, window, extent);
 	query_into(set->setResult,
 			   psprintf("SELECT e.v0, e.v1, min(e.length), array_agg(DISTINCT e.line ORDER BY e.line), "
 						"CASE WHEN bool_or(e.is_hard) THEN 'hard' ELSE 'soft' END%s FROM " EDGES_ON_LINES

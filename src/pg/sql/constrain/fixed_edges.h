@@ -8,7 +8,7 @@
 #include "nodes/execnodes.h"
 #include "pg/mesh/reader.h"
 
-extern void fixed_edges_put(Reader *reader, const abacus_window *window, double max_edge, bool with_ends,
+extern void fixed_edges_put(Reader *reader, const abacus_window *window, const abacus_extent *extent, bool with_ends,
 							ReturnSetInfo *set);
 extern char *fixed_edges_fault(Oid mesh, uint64 fixed, uint64 soft);
 

@@ -74,7 +74,7 @@ find_edge(FixedWindow *fixed, const double *a, const double *b, HASHACTION actio
 
 /* Reads the fixed edges of the window; false if they have no room in work_mem. */
 static bool
-read_edges(FixedWindow *fixed, Reader *reader, const abacus_window *window, double max_edge)
+read_edges(FixedWindow *fixed, Reader *reader, const abacus_window *window, const abacus_extent *extent)
 {
 	Host	   *host = reader->host;
 	abacus_faces *faces = NULL;
@@ -82,7 +82,7 @@ read_edges(FixedWindow *fixed, Reader *reader, const abacus_window *window, doub
 	double		ends[4];
 	bool		fits = true;
 
-	host_run(host, abacus_faces_open, &host->table, &reader->header.facts, window, true, max_edge,
+	host_run(host, abacus_faces_open, &host->table, &reader->header.facts, window, true, extent,
 			 setting_cache_bytes(), &faces);
 	host_own(host, faces, (void (*) (void *)) abacus_faces_close);
 	while (fits && host_run(host, abacus_faces_next_edge, faces, &edge, ends) != ABACUS_END)
@@ -226,11 +226,11 @@ edge_table(void)
  * many for work_mem. SPI is connected, and names without a schema are PostgreSQL's own.
  */
 bool
-fixed_window_read(Reader *reader, CachedMesh *cached, const abacus_window *window, double max_edge,
+fixed_window_read(Reader *reader, CachedMesh *cached, const abacus_window *window, const abacus_extent *extent,
 				  Oid table, FixedEdgeReport report, void *context)
 {
 	FixedWindow fixed = {.cached = cached,.edges = edge_table(),.report = report,.context = context};
-	bool		fits = read_edges(&fixed, reader, window, max_edge);
+	bool		fits = read_edges(&fixed, reader, window, extent);
 	Oid			types[] = {FLOAT8OID, FLOAT8OID};
 	HASH_SEQ_STATUS scan;
 	WindowEdge *edge;

@@ -12,6 +12,6 @@
 typedef void (*FixedEdgeReport) (void *context, const int64 ids[2], const double ends[4], int64 line, bool is_hard);
 
 extern bool fixed_window_read(Reader *reader, CachedMesh *cached, const abacus_window *window,
-							  double max_edge, Oid table, FixedEdgeReport report, void *context);
+							  const abacus_extent *extent, Oid table, FixedEdgeReport report, void *context);
 
 #endif

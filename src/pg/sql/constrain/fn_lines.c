@@ -58,11 +58,12 @@ Datum
 abacus_sql_fixed_edges(PG_FUNCTION_ARGS)
 {
 	abacus_window whole = {.kind = ABACUS_NO_WINDOW};
+	abacus_extent all = {0};
 	Reader	   *reader;
 
 	InitMaterializedSRF(fcinfo, 0);
 	reader = reader_open(PG_GETARG_OID(0), CurrentMemoryContext);
-	fixed_edges_put(reader, &whole, 0, true, (ReturnSetInfo *) fcinfo->resultinfo);
+	fixed_edges_put(reader, &whole, &all, true, (ReturnSetInfo *) fcinfo->resultinfo);
 	host_release(reader->host);
 	host_destroy(reader->host);
 	PG_RETURN_NULL();

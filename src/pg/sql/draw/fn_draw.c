@@ -16,6 +16,7 @@
 #include "pg/mesh/reader.h"
 #include "pg/mesh/shape.h"
 #include "pg/sql/arguments/attribute.h"
+#include "pg/sql/arguments/extent.h"
 #include "pg/sql/arguments/units.h"
 #include "pg/sql/arguments/word.h"
 #include "pg/sql/draw/drawing.h"
@@ -49,7 +50,8 @@ enum
 	DRAW_MAX_EDGE,
 	DRAW_RANGE,
 	DRAW_STYLE,
-	DRAW_LIGHT = DRAW_STYLE + STYLE_ARGUMENTS
+	DRAW_LIGHT = DRAW_STYLE + STYLE_ARGUMENTS,
+	DRAW_WITHIN
 };
 
 /* Arguments of abacus_draw_section */
@@ -198,7 +200,7 @@ tell_blank(const Reader *reader, const abacus_drawing *drawing, const char *cell
 			 waiting == 0 ? errdetail("It has no %s.", cells) :
 			 errdetail("It has no %s. %llu points wait: they are only staged, or span none.", cells,
 					   (unsigned long long) waiting),
-			 has_cells && drawing->max_edge > 0 ?
+			 has_cells && drawing->extent.max_edge > 0 ?
 			 errhint("Increase max_edge: %s with a longer edge are left out.", cells) : 0));
 }
 
@@ -206,7 +208,7 @@ tell_blank(const Reader *reader, const abacus_drawing *drawing, const char *cell
  * abacus_draw(mesh regclass, width int, height int, lower float8[],
  * upper float8[], attribute text, edges boolean, exaggeration float8,
  * max_edge float8, range float8[], ramp text, contours float8, legend text,
- * scale_bar text, transparent boolean, light float8[]) -> bytea
+ * scale_bar text, transparent boolean, light float8[], within text) -> bytea
  */
 Datum
 abacus_sql_draw(PG_FUNCTION_ARGS)
@@ -226,7 +228,8 @@ abacus_sql_draw(PG_FUNCTION_ARGS)
 	drawing.attribute = attribute_or_label(fcinfo, DRAW_ATTRIBUTE, abacus_names_of(&reader->header));
 	drawing.edges = PG_ARGISNULL(DRAW_EDGES) || PG_GETARG_BOOL(DRAW_EDGES);
 	drawing.exaggeration = drawing_factor(fcinfo, DRAW_EXAGGERATION, "exaggeration");
-	drawing.max_edge = drawing_factor(fcinfo, DRAW_MAX_EDGE, "max_edge");
+	extent_arguments(fcinfo, DRAW_MAX_EDGE, DRAW_WITHIN, PG_GETARG_OID(DRAW_MESH), &reader->header,
+					 &drawing.extent);
 	drawing_range(fcinfo, DRAW_RANGE, &drawing);
 	style(fcinfo, DRAW_STYLE, &drawing);
 	leave_contours_out(&reader->header.facts, &drawing);
@@ -272,7 +275,7 @@ abacus_sql_draw_section(PG_FUNCTION_ARGS)
 	drawing.height = drawing_pixels(fcinfo, SECTION_HEIGHT, 0, "height");
 	drawing.attribute = attribute_or_label(fcinfo, SECTION_ATTRIBUTE, abacus_names_of(&reader->header));
 	drawing.edges = PG_ARGISNULL(SECTION_EDGES) || PG_GETARG_BOOL(SECTION_EDGES);
-	drawing.max_edge = drawing_factor(fcinfo, SECTION_MAX_EDGE, "max_edge");
+	drawing.extent.max_edge = extent_max_edge(fcinfo, SECTION_MAX_EDGE);
 	drawing_range(fcinfo, SECTION_RANGE, &drawing);
 	style(fcinfo, SECTION_STYLE, &drawing);
 	leave_contours_out(&reader->header.facts, &drawing);
@@ -358,7 +361,7 @@ abacus_sql_draw_volume(PG_FUNCTION_ARGS)
 	drawing.width = drawing_pixels(fcinfo, VOLUME_WIDTH, 1024, "width");
 	drawing.height = drawing_pixels(fcinfo, VOLUME_HEIGHT, 0, "height");
 	drawing.attribute = attribute_or_none(fcinfo, VOLUME_ATTRIBUTE, abacus_names_of(&reader->header));
-	drawing.max_edge = drawing_factor(fcinfo, VOLUME_MAX_EDGE, "max_edge");
+	drawing.extent.max_edge = extent_max_edge(fcinfo, VOLUME_MAX_EDGE);
 	if (!PG_ARGISNULL(VOLUME_RANGE))
 		shape_range(PG_GETARG_ARRAYTYPE_P(VOLUME_RANGE), "range", drawing.range);
 	if (!PG_ARGISNULL(VOLUME_RAMP))

@@ -14,6 +14,7 @@
 #include "pg/mesh/reader.h"
 #include "pg/mesh/shape.h"
 #include "pg/sql/arguments/attribute.h"
+#include "pg/sql/arguments/extent.h"
 #include "pg/sql/draw/drawing.h"
 
 SQL_FUNCTION(abacus_sql_tile_picture);
@@ -43,7 +44,8 @@ enum
 	PICTURE_EXAGGERATION,
 	PICTURE_MAX_EDGE,
 	PICTURE_RAMP,
-	PICTURE_CONTOURS
+	PICTURE_CONTOURS,
+	PICTURE_WITHIN
 };
 
 /* ... of abacus_tile_vector */
@@ -51,7 +53,8 @@ enum
 {
 	VECTOR_ATTRIBUTE = TILE_ARGUMENTS,
 	VECTOR_CONTOURS,
-	VECTOR_MAX_EDGE
+	VECTOR_MAX_EDGE,
+	VECTOR_WITHIN
 };
 
 /* ... of abacus_tile_terrain */
@@ -60,7 +63,8 @@ enum
 	TERRAIN_SIZE = TILE_ARGUMENTS,
 	TERRAIN_ATTRIBUTE,
 	TERRAIN_MAX_EDGE,
-	TERRAIN_FILL
+	TERRAIN_FILL,
+	TERRAIN_WITHIN
 };
 
 /* More pixels do not make a tile. */
@@ -175,7 +179,7 @@ tile_attribute(FunctionCallInfo fcinfo, int argument, abacus_names names)
  * abacus_tile_picture(mesh regclass, z int, x int, y int, srid int,
  * world float8[], size int,
  * attribute text, range float8[], edges boolean, exaggeration float8,
- * max_edge float8, ramp text, contours float8) -> bytea
+ * max_edge float8, ramp text, contours float8, within text) -> bytea
  */
 Datum
 abacus_sql_tile_picture(PG_FUNCTION_ARGS)
@@ -195,7 +199,8 @@ abacus_sql_tile_picture(PG_FUNCTION_ARGS)
 	drawing_range(fcinfo, PICTURE_RANGE, &drawing);
 	drawing.edges = PG_ARGISNULL(PICTURE_EDGES) || PG_GETARG_BOOL(PICTURE_EDGES);
 	drawing.exaggeration = drawing_factor(fcinfo, PICTURE_EXAGGERATION, "exaggeration");
-	drawing.max_edge = drawing_factor(fcinfo, PICTURE_MAX_EDGE, "max_edge");
+	extent_arguments(fcinfo, PICTURE_MAX_EDGE, PICTURE_WITHIN, PG_GETARG_OID(TILE_MESH), &reader->header,
+					 &drawing.extent);
 	drawing_ramp(fcinfo, PICTURE_RAMP, &drawing);
 	drawing_contours(fcinfo, PICTURE_CONTOURS, &drawing);
 	drawing.transparent = true;
@@ -207,7 +212,7 @@ abacus_sql_tile_picture(PG_FUNCTION_ARGS)
 /*
  * abacus_tile_vector(mesh regclass, z int, x int, y int, srid int,
  * world float8[], attribute text,
- * contours float8, max_edge float8) -> bytea
+ * contours float8, max_edge float8, within text) -> bytea
  */
 Datum
 abacus_sql_tile_vector(PG_FUNCTION_ARGS)
@@ -224,7 +229,8 @@ abacus_sql_tile_vector(PG_FUNCTION_ARGS)
 	host = reader->host;
 	kind.attribute = tile_attribute(fcinfo, VECTOR_ATTRIBUTE, abacus_names_of(&reader->header));
 	kind.contour_interval = drawing_interval(fcinfo, VECTOR_CONTOURS);
-	kind.max_edge = drawing_factor(fcinfo, VECTOR_MAX_EDGE, "max_edge");
+	extent_arguments(fcinfo, VECTOR_MAX_EDGE, VECTOR_WITHIN, PG_GETARG_OID(TILE_MESH), &reader->header,
+					 &kind.extent);
 	host_run(host, abacus_tile_vector, &host->table, &reader->header.facts, &tile, &kind, &memory,
 			 &bytes);
 	PG_RETURN_BYTEA_P(drawing_finish(host, &bytes));
@@ -233,7 +239,7 @@ abacus_sql_tile_vector(PG_FUNCTION_ARGS)
 /*
  * abacus_tile_terrain(mesh regclass, z int, x int, y int, srid int,
  * world float8[], size int,
- * attribute text, max_edge float8, fill float8) -> bytea
+ * attribute text, max_edge float8, fill float8, within text) -> bytea
  */
 Datum
 abacus_sql_tile_terrain(PG_FUNCTION_ARGS)
@@ -251,7 +257,8 @@ abacus_sql_tile_terrain(PG_FUNCTION_ARGS)
 	header_require_attributes(&reader->header.facts);
 	kind.width = tile_size(fcinfo, TERRAIN_SIZE);
 	kind.attribute = (uint32) tile_attribute(fcinfo, TERRAIN_ATTRIBUTE, abacus_names_of(&reader->header));
-	kind.max_edge = drawing_factor(fcinfo, TERRAIN_MAX_EDGE, "max_edge");
+	extent_arguments(fcinfo, TERRAIN_MAX_EDGE, TERRAIN_WITHIN, PG_GETARG_OID(TILE_MESH), &reader->header,
+					 &kind.extent);
 	kind.fill = PG_ARGISNULL(TERRAIN_FILL) ? 0 : PG_GETARG_FLOAT8(TERRAIN_FILL);
 	if (!isfinite(kind.fill))
 		ereport(ERROR,

@@ -36,7 +36,8 @@ enum
 	TILES_EXAGGERATION,
 	TILES_EDGES,
 	TILES_MAX_EDGE,
-	TILES_SIZE
+	TILES_SIZE,
+	TILES_WITHIN
 };
 
 /* The parts of the functions as SQL; what is not given is NULL. */
@@ -55,6 +56,7 @@ typedef struct Tiles
 	const char *exaggeration;
 	const char *edges;
 	const char *max_edge;
+	const char *within;
 	const char *srid;
 	const char *fill;			/* the height outside the mesh */
 	int32		size;
@@ -187,8 +189,9 @@ make_with_etag(const Tiles *tiles, const char *suffix, const char *body, const c
 static const char *
 vector_body(const Tiles *tiles, const char *contours)
 {
-	return psprintf("%s.abacus_tile_vector(%s, z, x, y, %s, %s, %s, %s, %s)", tiles->extension,
-					tiles->mesh, tiles->srid, tiles->world, tiles->attribute, contours, tiles->max_edge);
+	return psprintf("%s.abacus_tile_vector(%s, z, x, y, %s, %s, %s, %s, %s, %s)", tiles->extension,
+					tiles->mesh, tiles->srid, tiles->world, tiles->attribute, contours, tiles->max_edge,
+					tiles->within);
 }
 
 static void
@@ -203,10 +206,10 @@ make_all(const Tiles *tiles, bool has_attribute)
 		ramp = psprintf("coalesce(query_params ->> 'ramp', %s)", tiles->ramp);
 	}
 	make_with_etag(tiles, "picture",
-				   psprintf("%s.abacus_tile_picture(%s, z, x, y, %s, %s, %d, %s, %s, %s, %s, %s, %s, %s)",
+				   psprintf("%s.abacus_tile_picture(%s, z, x, y, %s, %s, %d, %s, %s, %s, %s, %s, %s, %s, %s)",
 							tiles->extension, tiles->mesh, tiles->srid, tiles->world, tiles->size,
 							tiles->attribute, tiles->range, tiles->edges, tiles->exaggeration,
-							tiles->max_edge, ramp, contours),
+							tiles->max_edge, ramp, contours, tiles->within),
 				   "{\"content_type\": \"image/png\", \"description\": \"A mesh as pictures\"}");
 	make_with_etag(tiles, "vector", vector_body(tiles, contours),
 				   "{\"content_type\": \"application/x-protobuf\", \"description\": \"A mesh: triangles, vertices, contours, hull\"}");
@@ -215,9 +218,9 @@ make_all(const Tiles *tiles, bool has_attribute)
 		 vector_body(tiles, "contours"), "A mesh: triangles, vertices, contours, hull");
 	if (has_attribute)
 		make_with_etag(tiles, "terrain",
-					   psprintf("%s.abacus_tile_terrain(%s, z, x, y, %s, %s, %d, %s, %s, %s)",
+					   psprintf("%s.abacus_tile_terrain(%s, z, x, y, %s, %s, %d, %s, %s, %s, %s)",
 								tiles->extension, tiles->mesh, tiles->srid, tiles->world, tiles->size,
-								tiles->attribute, tiles->max_edge, tiles->fill),
+								tiles->attribute, tiles->max_edge, tiles->fill, tiles->within),
 					   "{\"content_type\": \"image/png\", \"encoding\": \"terrarium\", \"description\": \"A mesh as heights\"}");
 }
 
@@ -225,16 +228,16 @@ make_all(const Tiles *tiles, bool has_attribute)
 static void
 try_arguments(const Tiles *tiles)
 {
-	run(psprintf("SELECT %s.abacus_tile_picture(%s, 30, 0, 0, %s, %s, %d, %s, %s, %s, %s, %s, %s, %s)",
+	run(psprintf("SELECT %s.abacus_tile_picture(%s, 30, 0, 0, %s, %s, %d, %s, %s, %s, %s, %s, %s, %s, %s)",
 				 tiles->extension, tiles->mesh, tiles->srid, tiles->world, tiles->size, tiles->attribute,
 				 tiles->range, tiles->edges, tiles->exaggeration, tiles->max_edge, tiles->ramp,
-				 tiles->contours));
+				 tiles->contours, tiles->within));
 }
 
 /*
  * abacus_tiles(mesh regclass, srid int, world float8[], attribute text, range float8[],
  * contours float8, ramp text, exaggeration float8, edges boolean, max_edge float8,
- * size int) -> setof regprocedure
+ * size int, within text) -> setof regprocedure
  */
 Datum
 abacus_sql_tiles(PG_FUNCTION_ARGS)
@@ -277,6 +280,7 @@ abacus_sql_tiles(PG_FUNCTION_ARGS)
 						  quote_literal_cstr(quote_qualified_identifier(tiles.schema, tiles.name)));
 	tiles.world = world_literal(fcinfo);
 	tiles.ramp = text_literal(fcinfo, TILES_RAMP);
+	tiles.within = text_literal(fcinfo, TILES_WITHIN);
 	tiles.edges = PG_ARGISNULL(TILES_EDGES) || PG_GETARG_BOOL(TILES_EDGES) ? "true" : "false";
 	tiles.srid = PG_ARGISNULL(TILES_SRID) ? "NULL::integer" :
 		psprintf("%d", PG_GETARG_INT32(TILES_SRID));

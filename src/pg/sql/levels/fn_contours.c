@@ -20,6 +20,7 @@
 #include "pg/mesh/reader.h"
 #include "pg/mesh/shape.h"
 #include "pg/sql/arguments/attribute.h"
+#include "pg/sql/arguments/extent.h"
 #include "pg/sql/arguments/missing.h"
 #include "pg/sql/arguments/window.h"
 #include "pg/sql/rows/answers.h"
@@ -37,7 +38,8 @@ enum
 	ARGUMENT_ATTRIBUTE,
 	ARGUMENT_LOWER,
 	ARGUMENT_UPPER,
-	ARGUMENT_MAX_EDGE
+	ARGUMENT_MAX_EDGE,
+	ARGUMENT_WITHIN
 };
 
 /* Columns */
@@ -152,7 +154,8 @@ level_arguments(FunctionCallInfo fcinfo, abacus_contouring *how)
 
 /*
  * abacus_contours(mesh regclass, level_interval float8, level_base float8, fixed_levels float8[],
- * polygonize bool, attribute text, lower float8[], upper float8[], max_edge float8)
+ * polygonize bool, attribute text, lower float8[], upper float8[], max_edge float8,
+ * within text)
  *     -> id, value, closed, path
  */
 Datum
@@ -172,7 +175,8 @@ abacus_sql_contours(PG_FUNCTION_ARGS)
 	level_arguments(fcinfo, &how);
 	how.bands = !PG_ARGISNULL(ARGUMENT_POLYGONIZE) && PG_GETARG_BOOL(ARGUMENT_POLYGONIZE);
 	how.attribute = attribute_argument(fcinfo, ARGUMENT_ATTRIBUTE, abacus_names_of(&reader->header));
-	how.max_edge = window_max_edge(fcinfo, ARGUMENT_MAX_EDGE);
+	extent_arguments(fcinfo, ARGUMENT_MAX_EDGE, ARGUMENT_WITHIN, PG_GETARG_OID(ARGUMENT_MESH),
+					 &reader->header, &how.extent);
 	window_arguments(fcinfo, ARGUMENT_LOWER, WINDOW_BOX, &reader->header.facts.form, &window);
 	answers.host = reader->host;
 	progress_begin(&reader->host->progress, PG_GETARG_OID(ARGUMENT_MESH));

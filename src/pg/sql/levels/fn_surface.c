@@ -20,6 +20,7 @@
 #include "pg/host/guard.h"
 #include "pg/mesh/shape.h"
 #include "pg/sql/arguments/attribute.h"
+#include "pg/sql/arguments/extent.h"
 #include "pg/sql/arguments/missing.h"
 #include "pg/sql/arguments/window.h"
 #include "pg/sql/rows/result.h"
@@ -101,7 +102,7 @@ surface_arguments(FunctionCallInfo fcinfo, abacus_names names,
 	query->attribute = attribute_argument(fcinfo, SURFACE_ATTRIBUTE, names);
 	query->carried = attribute_or_none(fcinfo, SURFACE_CARRY, names);
 	window_arguments(fcinfo, SURFACE_LOWER, WINDOW_BOX, &names.facts->form, &query->window);
-	query->max_edge = window_max_edge(fcinfo, SURFACE_MAX_EDGE);
+	query->extent.max_edge = extent_max_edge(fcinfo, SURFACE_MAX_EDGE);
 }
 
 /*
@@ -197,7 +198,7 @@ section_arguments(FunctionCallInfo fcinfo, abacus_names names,
 	query->attribute = attribute_or_none(fcinfo, SECTION_ATTRIBUTE, names);
 	if (query->attribute < 0 && names.facts->columns.attributes > 0)
 		query->attribute = header_only_attribute(names);
-	query->max_edge = window_max_edge(fcinfo, SECTION_MAX_EDGE);
+	query->extent.max_edge = extent_max_edge(fcinfo, SECTION_MAX_EDGE);
 }
 
 static void

@@ -10,6 +10,7 @@
 #include "abacus/lines.h"
 #include "pg/base/sql_function.h"
 #include "pg/mesh/mesh_cache.h"
+#include "pg/sql/arguments/extent.h"
 #include "pg/sql/arguments/interpolation.h"
 #include "pg/sql/arguments/line.h"
 #include "pg/sql/rows/answers.h"
@@ -63,7 +64,7 @@ path_argument(FunctionCallInfo fcinfo, int argument, uint32 dimension, size_t *c
 }
 
 /*
- * abacus_profile(mesh regclass, path float8[], attribute text, max_edge float8)
+ * abacus_profile(mesh regclass, path float8[], attribute text, max_edge float8, within text)
  *     -> distance, x, y, z, value
  */
 Datum
@@ -82,9 +83,9 @@ abacus_sql_profile(PG_FUNCTION_ARGS)
 	answers.host = cached->host;
 	answers.dimension = cached->dimension;
 	interpolation_attribute(fcinfo, 2, abacus_names_of(&cached->header), &how);
-	interpolation_max_edge(fcinfo, 3, &how);
+	extent_arguments(fcinfo, 3, 4, PG_GETARG_OID(0), &cached->header, &how.extent);
 	path = path_argument(fcinfo, 1, cached->dimension, &corners);
-	host_run(answers.host, abacus_mesh_profile, cached->mesh, how.attribute[0], how.max_edge, path,
+	host_run(answers.host, abacus_mesh_profile, cached->mesh, how.attribute[0], &how.extent, path,
 			 corners, put_place, &answers);
 	host_release(answers.host);
 	PG_RETURN_NULL();

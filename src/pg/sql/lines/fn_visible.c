@@ -11,6 +11,7 @@
 #include "abacus/lines.h"
 #include "pg/base/sql_function.h"
 #include "pg/mesh/mesh_cache.h"
+#include "pg/sql/arguments/extent.h"
 #include "pg/sql/arguments/interpolation.h"
 #include "pg/sql/arguments/line.h"
 #include "pg/sql/rows/result.h"
@@ -26,7 +27,8 @@ enum
 	SIGHT_ATTRIBUTE,
 	SIGHT_OBSERVER_HEIGHT,
 	SIGHT_TARGET_HEIGHT,
-	SIGHT_MAX_EDGE
+	SIGHT_MAX_EDGE,
+	SIGHT_WITHIN
 };
 
 /* Columns */
@@ -68,7 +70,8 @@ end_argument(FunctionCallInfo fcinfo, int argument, int height_argument, const c
 
 /*
  * abacus_visible(mesh regclass, observer float8[], target float8[], attribute text,
- *                observer_height float8, target_height float8, max_edge float8)
+ *                observer_height float8, target_height float8, max_edge float8,
+ *                within text)
  *     -> visible, x, y, z
  */
 Datum
@@ -88,10 +91,11 @@ abacus_sql_visible(PG_FUNCTION_ARGS)
 	header_require_dimension(&cached->header.facts.form, 2,
 							 "Use a terrain: a mesh in the plane with the height as an attribute.");
 	interpolation_attribute(fcinfo, SIGHT_ATTRIBUTE, abacus_names_of(&cached->header), &how);
-	interpolation_max_edge(fcinfo, SIGHT_MAX_EDGE, &how);
+	extent_arguments(fcinfo, SIGHT_MAX_EDGE, SIGHT_WITHIN, PG_GETARG_OID(SIGHT_MESH), &cached->header,
+					 &how.extent);
 	end_argument(fcinfo, SIGHT_OBSERVER, SIGHT_OBSERVER_HEIGHT, "observer", &observer);
 	end_argument(fcinfo, SIGHT_TARGET, SIGHT_TARGET_HEIGHT, "target", &target);
-	host_run(cached->host, abacus_mesh_look, cached->mesh, how.attribute[0], how.max_edge, &observer,
+	host_run(cached->host, abacus_mesh_look, cached->mesh, how.attribute[0], &how.extent, &observer,
 			 &target, &sight);
 	host_release(cached->host);
 	values[SIGHT_VISIBLE] = BoolGetDatum(sight.kind == ABACUS_SIGHT_FREE);

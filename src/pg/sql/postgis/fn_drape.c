@@ -23,6 +23,7 @@
 #include "pg/mesh/mesh_cache.h"
 #include "pg/postgis/geometry_errors.h"
 #include "pg/postgis/geometry_write.h"
+#include "pg/sql/arguments/extent.h"
 #include "pg/sql/arguments/interpolation.h"
 #include "pg/sql/arguments/word.h"
 #include "pg/sql/postgis/geometry_place.h"
@@ -38,7 +39,8 @@ enum
 	DRAPE_ATTRIBUTE,
 	DRAPE_DENSIFY,
 	DRAPE_OUTSIDE,
-	DRAPE_MAX_EDGE
+	DRAPE_MAX_EDGE,
+	DRAPE_WITHIN
 };
 
 /* A place: x, y, z, m */
@@ -196,7 +198,7 @@ put_crossings(Drape *drape)
 		return;
 	drape->has_last = false;
 	host_run(mesh->host, abacus_mesh_profile, mesh->mesh, drape->how.attribute[0],
-			 drape->how.max_edge, path, 2, cross, drape);
+			 &drape->how.extent, path, 2, cross, drape);
 	host_release(mesh->host);
 	put_last(drape);
 }
@@ -268,7 +270,7 @@ drape_geometry(Drape *drape, bool inside)
 
 /*
  * abacus_drape(mesh regclass, geometry geometry, attribute text, densify boolean, outside text,
- *              max_edge float8)
+ *              max_edge float8, within text)
  *     -> geometry
  */
 Datum
@@ -286,7 +288,8 @@ abacus_sql_drape(PG_FUNCTION_ARGS)
 	interpolation_attribute(fcinfo, DRAPE_ATTRIBUTE, abacus_names_of(&drape.mesh->header), &drape.how);
 	drape.how.outside = word_argument(fcinfo, DRAPE_OUTSIDE, outsides, "outside",
 									  "Use null, or nearest for the value of the nearest vertex.");
-	interpolation_max_edge(fcinfo, DRAPE_MAX_EDGE, &drape.how);
+	extent_arguments(fcinfo, DRAPE_MAX_EDGE, DRAPE_WITHIN, PG_GETARG_OID(DRAPE_MESH), &drape.mesh->header,
+					 &drape.how.extent);
 	drape.densifies = !PG_ARGISNULL(DRAPE_DENSIFY) && PG_GETARG_BOOL(DRAPE_DENSIFY);
 	drape.in = geometry_bytes(type, PG_GETARG_DATUM(DRAPE_GEOMETRY));
 	initStringInfo(&drape.out);

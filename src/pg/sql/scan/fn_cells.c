@@ -9,6 +9,7 @@
 
 #include "abacus/windows.h"
 #include "pg/base/sql_function.h"
+#include "pg/sql/arguments/extent.h"
 #include "pg/sql/arguments/window.h"
 #include "pg/sql/rows/result.h"
 #include "pg/sql/rows/set.h"
@@ -16,6 +17,7 @@
 
 SQL_FUNCTION(abacus_sql_simplices_in_box);
 SQL_FUNCTION(abacus_sql_simplices_in_ball);
+SQL_FUNCTION(abacus_sql_simplices_within);
 SQL_FUNCTION(abacus_sql_cells);
 SQL_FUNCTION(abacus_sql_cells_in_ball);
 
@@ -28,19 +30,32 @@ enum
 	CELL_COLUMNS
 };
 
-static void
-begin(FunctionCallInfo fcinfo, FuncCallContext *set, WindowForm form, bool is_cells)
+/* What is returned, and by which arguments it is chosen. */
+typedef enum Wanted
 {
+	SIMPLICES,					/* mesh, a window, within */
+	SIMPLICES_OF_REGION,		/* mesh, within */
+	CELLS						/* mesh, a window, max_edge, a label and its range, within */
+} Wanted;
+
+static void
+begin(FunctionCallInfo fcinfo, FuncCallContext *set, WindowForm form, Wanted wanted)
+{
+	bool		is_cells = wanted == CELLS;
 	Reader	   *reader = set_begin(fcinfo, set, is_cells ? result_row_type : simplex_row_type);
 	Host	   *host = reader->host;
 	abacus_window window = {0};
 	abacus_cells *cells = NULL;
 	abacus_range label;
-	double		max_edge = is_cells ? window_max_edge(fcinfo, 3) : 0;
+	abacus_extent extent = {0};
 	bool		has_label = is_cells && window_label(fcinfo, 4, abacus_names_of(&reader->header), &label);
 
-	window_arguments(fcinfo, 1, form, &reader->header.facts.form, &window);
-	host_run(host, abacus_cells_open, &host->table, &reader->header.facts, &window, max_edge,
+	if (wanted != SIMPLICES_OF_REGION)
+		window_arguments(fcinfo, 1, form, &reader->header.facts.form, &window);
+	if (is_cells)
+		extent.max_edge = extent_max_edge(fcinfo, 3);
+	extent.region = extent_within(fcinfo, PG_NARGS() - 1, PG_GETARG_OID(0), &reader->header.facts, 0);
+	host_run(host, abacus_cells_open, &host->table, &reader->header.facts, &window, &extent,
 			 has_label ? &label : NULL, &cells);
 	host_own(host, cells, (void (*) (void *)) abacus_cells_close);
 }
@@ -66,8 +81,9 @@ cell_row(TupleDesc row_type, const abacus_simplex *simplex, const double *attrib
 }
 
 static Datum
-next(FunctionCallInfo fcinfo, WindowForm form, bool is_cells)
+next(FunctionCallInfo fcinfo, WindowForm form, Wanted wanted)
 {
+	bool		is_cells = wanted == CELLS;
 	FuncCallContext *set;
 	Reader	   *reader;
 	Host	   *host;
@@ -79,9 +95,9 @@ next(FunctionCallInfo fcinfo, WindowForm form, bool is_cells)
 	if (SRF_IS_FIRSTCALL())
 	{
 		set = SRF_FIRSTCALL_INIT();
-		if (PG_ARGISNULL(0))
+		if (PG_ARGISNULL(0) || (wanted == SIMPLICES && (PG_ARGISNULL(1) || PG_ARGISNULL(2))))
 			SRF_RETURN_DONE(set);
-		begin(fcinfo, set, form, is_cells);
+		begin(fcinfo, set, form, wanted);
 	}
 	set = SRF_PERCALL_SETUP();
 	reader = set->user_fctx;
@@ -96,38 +112,45 @@ next(FunctionCallInfo fcinfo, WindowForm form, bool is_cells)
 					: simplex_row(set->tuple_desc, &simplex, reader->header.facts.form.dimension));
 }
 
-/* abacus_simplices(mesh regclass, lower float8[], upper float8[]) -> SETOF abacus_simplex */
+/* abacus_simplices(mesh regclass, lower float8[], upper float8[], within text) -> SETOF abacus_simplex */
 Datum
 abacus_sql_simplices_in_box(PG_FUNCTION_ARGS)
 {
-	return next(fcinfo, WINDOW_BOX, false);
+	return next(fcinfo, WINDOW_BOX, SIMPLICES);
 }
 
-/* abacus_simplices(mesh regclass, center float8[], radius float8) -> SETOF abacus_simplex */
+/* abacus_simplices(mesh regclass, center float8[], radius float8, within text) -> SETOF abacus_simplex */
 Datum
 abacus_sql_simplices_in_ball(PG_FUNCTION_ARGS)
 {
-	return next(fcinfo, WINDOW_BALL, false);
+	return next(fcinfo, WINDOW_BALL, SIMPLICES);
+}
+
+/* abacus_simplices(mesh regclass, within text) -> SETOF abacus_simplex */
+Datum
+abacus_sql_simplices_within(PG_FUNCTION_ARGS)
+{
+	return next(fcinfo, WINDOW_BOX, SIMPLICES_OF_REGION);
 }
 
 /*
  * abacus_cells(mesh regclass, lower float8[], upper float8[], max_edge float8, label text,
- * range float8[])
+ * range float8[], within text)
  *     -> code, v0, v1, v2, v3, corners, values, labels
  */
 Datum
 abacus_sql_cells(PG_FUNCTION_ARGS)
 {
-	return next(fcinfo, WINDOW_BOX, true);
+	return next(fcinfo, WINDOW_BOX, CELLS);
 }
 
 /*
  * abacus_cells(mesh regclass, center float8[], radius float8, max_edge float8, label text,
- * range float8[])
+ * range float8[], within text)
  *     -> the same
  */
 Datum
 abacus_sql_cells_in_ball(PG_FUNCTION_ARGS)
 {
-	return next(fcinfo, WINDOW_BALL, true);
+	return next(fcinfo, WINDOW_BALL, CELLS);
 }

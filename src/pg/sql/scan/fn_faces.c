@@ -10,6 +10,7 @@
 #include "abacus/windows.h"
 #include "pg/base/settings.h"
 #include "pg/base/sql_function.h"
+#include "pg/sql/arguments/extent.h"
 #include "pg/sql/arguments/window.h"
 #include "pg/sql/constrain/fixed_edges.h"
 #include "pg/sql/rows/faces.h"
@@ -37,7 +38,7 @@ enum
 typedef enum Wanted
 {
 	VERTICES,					/* mesh, a window, and for a box an attribute and its range */
-	EDGES,						/* mesh, a window, and max_edge */
+	EDGES,						/* mesh, a window, max_edge, and within at the end */
 	EDGE_PATHS					/* the same, with the coordinates of their ends */
 } Wanted;
 
@@ -55,17 +56,19 @@ begin(FunctionCallInfo fcinfo, FuncCallContext *set, WindowForm form, Wanted wan
 	abacus_window window = {0};
 	abacus_range range;
 	abacus_faces *faces = NULL;
-	double		max_edge = are_edges(wanted) ? window_max_edge(fcinfo, 3) : 0;
+	abacus_extent extent = {0};
 	bool		has_range = wanted == VERTICES && form == WINDOW_BOX &&
 		window_attribute(fcinfo, 3, abacus_names_of(&reader->header), &range);
 
 	window_arguments(fcinfo, 1, form, &reader->header.facts.form, &window);
+	if (are_edges(wanted))
+		extent_arguments(fcinfo, 3, PG_NARGS() - 1, PG_GETARG_OID(0), &reader->header, &extent);
 	if (has_range)
 		host_run(host, abacus_faces_open_range, &host->table, &reader->header.facts, &window, &range,
 				 setting_cache_bytes(), &faces);
 	else
 		host_run(host, abacus_faces_open, &host->table, &reader->header.facts, &window, are_edges(wanted),
-				 max_edge, setting_cache_bytes(), &faces);
+				 &extent, setting_cache_bytes(), &faces);
 	host_own(host, faces, (void (*) (void *)) abacus_faces_close);
 }
 
@@ -155,7 +158,7 @@ wants_fixed(FunctionCallInfo fcinfo)
 static Datum
 fixed_edges(FunctionCallInfo fcinfo, WindowForm form)
 {
-	double		max_edge;
+	abacus_extent extent;
 	abacus_window window = {0};
 	Reader	   *reader;
 
@@ -163,16 +166,17 @@ fixed_edges(FunctionCallInfo fcinfo, WindowForm form)
 	if (PG_ARGISNULL(0))
 		PG_RETURN_NULL();
 	reader = reader_open(PG_GETARG_OID(0), CurrentMemoryContext);
-	max_edge = window_max_edge(fcinfo, 3);
+	extent_arguments(fcinfo, 3, PG_NARGS() - 1, PG_GETARG_OID(0), &reader->header, &extent);
 	window_arguments(fcinfo, 1, form, &reader->header.facts.form, &window);
-	fixed_edges_put(reader, &window, max_edge, false, (ReturnSetInfo *) fcinfo->resultinfo);
+	fixed_edges_put(reader, &window, &extent, false, (ReturnSetInfo *) fcinfo->resultinfo);
 	host_release(reader->host);
 	host_destroy(reader->host);
 	PG_RETURN_NULL();
 }
 
 /*
- * abacus_edges(mesh regclass, lower float8[], upper float8[], max_edge float8, fixed boolean)
+ * abacus_edges(mesh regclass, lower float8[], upper float8[], max_edge float8, fixed boolean,
+ * within text)
  *     -> v0, v1, length, lines, kind
  */
 Datum
@@ -184,7 +188,8 @@ abacus_sql_edges(PG_FUNCTION_ARGS)
 }
 
 /*
- * abacus_edges(mesh regclass, center float8[], radius float8, max_edge float8, fixed boolean)
+ * abacus_edges(mesh regclass, center float8[], radius float8, max_edge float8, fixed boolean,
+ * within text)
  *     -> the same
  */
 Datum
@@ -196,7 +201,7 @@ abacus_sql_edges_in_ball(PG_FUNCTION_ARGS)
 }
 
 /*
- * _abacus_edges(mesh regclass, lower float8[], upper float8[], max_edge float8)
+ * _abacus_edges(mesh regclass, lower float8[], upper float8[], max_edge float8, within text)
  *     -> v0, v1, length, path
  */
 Datum

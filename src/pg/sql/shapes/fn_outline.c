@@ -12,6 +12,7 @@
 #include "pg/base/settings.h"
 #include "pg/base/sql_function.h"
 #include "pg/mesh/reader.h"
+#include "pg/sql/arguments/extent.h"
 #include "pg/sql/arguments/window.h"
 #include "pg/sql/rows/answers.h"
 
@@ -87,7 +88,7 @@ outline(FunctionCallInfo fcinfo, bool is_alpha)
 	if (is_alpha)
 		alpha_arguments(fcinfo, &reader->header.facts.form, &kind);
 	else
-		kind.max_edge = window_max_edge(fcinfo, 1);
+		extent_arguments(fcinfo, 1, 2, PG_GETARG_OID(0), &reader->header, &kind.extent);
 	progress_begin(&host->progress, PG_GETARG_OID(0));
 	host_run(host, abacus_outline, &host->table, &reader->header.facts, &kind, setting_query_sort_bytes(),
 			 setting_cache_bytes(), put_row, &answers);
@@ -97,7 +98,7 @@ outline(FunctionCallInfo fcinfo, bool is_alpha)
 	PG_RETURN_NULL();
 }
 
-/* abacus_hull(mesh regclass, max_edge float8) -> ring, position, vertex, x, y, z */
+/* abacus_hull(mesh regclass, max_edge float8, within text) -> ring, position, vertex, x, y, z */
 Datum
 abacus_sql_hull(PG_FUNCTION_ARGS)
 {

@@ -11,6 +11,7 @@
 
 #include "pg/base/sql_function.h"
 #include "pg/mesh/mesh_cache.h"
+#include "pg/sql/arguments/extent.h"
 #include "pg/sql/arguments/interpolation.h"
 #include "pg/sql/arguments/place.h"
 #include "pg/sql/arguments/units.h"
@@ -24,6 +25,7 @@ enum
 {
 	HOW_ATTRIBUTE,
 	HOW_MAX_EDGE,
+	HOW_WITHIN,
 	HOW_ARGUMENTS
 };
 
@@ -50,7 +52,8 @@ find_gradient(FunctionCallInfo fcinfo, double *gradient)
 		return 0;
 	cached = mesh_cache_get(PG_GETARG_OID(0));
 	interpolation_attribute(fcinfo, first + HOW_ATTRIBUTE, abacus_names_of(&cached->header), &how);
-	interpolation_max_edge(fcinfo, first + HOW_MAX_EDGE, &how);
+	extent_arguments(fcinfo, first + HOW_MAX_EDGE, first + HOW_WITHIN, PG_GETARG_OID(0), &cached->header,
+					 &how.extent);
 	units_tell_slopes(&cached->header.facts.form);
 	if (!place_arguments(fcinfo, first - 1, &cached->header.facts.form, point))
 		return 0;
@@ -61,7 +64,7 @@ find_gradient(FunctionCallInfo fcinfo, double *gradient)
 
 /*
  * abacus_gradient(mesh regclass, x float8, y float8[, z float8], attribute text,
- *                 max_edge float8) -> float8[]
+ *                 max_edge float8, within text) -> float8[]
  */
 Datum
 abacus_sql_gradient(PG_FUNCTION_ARGS)
@@ -89,7 +92,7 @@ downhill(const double *gradient)
 }
 
 /*
- * abacus_slope(mesh regclass, x float8, y float8, attribute text, max_edge float8)
+ * abacus_slope(mesh regclass, x float8, y float8, attribute text, max_edge float8, within text)
  *     -> slope, aspect
  */
 Datum

@@ -13,6 +13,7 @@
 
 #include "pg/base/sql_function.h"
 #include "pg/mesh/mesh_cache.h"
+#include "pg/sql/arguments/extent.h"
 #include "pg/sql/arguments/interpolation.h"
 #include "pg/sql/arguments/place.h"
 #include "pg/sql/arguments/places.h"
@@ -28,12 +29,13 @@ enum
 	HOW_METHOD,
 	HOW_OUTSIDE,
 	HOW_MAX_EDGE,
+	HOW_WITHIN,
 	HOW_ARGUMENTS
 };
 
 /*
  * abacus_interpolate(mesh regclass, x float8, y float8[, z float8], attribute text,
- *                    method text, outside text, max_edge float8) -> float8
+ *                    method text, outside text, max_edge float8, within text) -> float8
  */
 Datum
 abacus_sql_interpolate(PG_FUNCTION_ARGS)
@@ -50,6 +52,8 @@ abacus_sql_interpolate(PG_FUNCTION_ARGS)
 	cached = mesh_cache_get(PG_GETARG_OID(0));
 	interpolation_attribute(fcinfo, first + HOW_ATTRIBUTE, abacus_names_of(&cached->header), &how);
 	interpolation_how(fcinfo, first + HOW_METHOD, &how);
+	extent_arguments(fcinfo, first + HOW_MAX_EDGE, first + HOW_WITHIN, PG_GETARG_OID(0), &cached->header,
+					 &how.extent);
 	if (!place_arguments(fcinfo, first - 1, &cached->header.facts.form, point))
 		PG_RETURN_NULL();
 	status = host_run(cached->host, abacus_mesh_interpolate, cached->mesh, &how, point, &value);
@@ -61,7 +65,7 @@ abacus_sql_interpolate(PG_FUNCTION_ARGS)
 
 /*
  * abacus_interpolate(mesh regclass, query text, attributes text[],
- *                    method text, outside text, max_edge float8)
+ *                    method text, outside text, max_edge float8, within text)
  *     -> id, values
  */
 Datum
@@ -77,6 +81,8 @@ abacus_sql_interpolate_places(PG_FUNCTION_ARGS)
 	places_open(&read, PG_GETARG_OID(0), ABACUS_MESH, text_to_cstring(PG_GETARG_TEXT_PP(1)));
 	interpolation_attributes(fcinfo, 2 + HOW_ATTRIBUTE, read.names, &how);
 	interpolation_how(fcinfo, 2 + HOW_METHOD, &how);
+	how.extent.max_edge = extent_max_edge(fcinfo, 2 + HOW_MAX_EDGE);
+	how.extent.region = extent_within(fcinfo, 2 + HOW_WITHIN, PG_GETARG_OID(0), read.names.facts, 0);
 	places_fetch(&read);
 	answers.host = read.host;
 	answers_have_arrays(&answers, how.attributes);

@@ -12,6 +12,7 @@
 #include "abacus/raster.h"
 #include "pg/base/settings.h"
 #include "pg/base/sql_function.h"
+#include "pg/sql/arguments/extent.h"
 #include "pg/sql/arguments/interpolation.h"
 #include "pg/sql/arguments/line.h"
 #include "pg/sql/arguments/units.h"
@@ -29,7 +30,10 @@ enum
 	RASTER_WIDTH,
 	RASTER_HEIGHT,
 	RASTER_ATTRIBUTE,
-	RASTER_METHOD
+	RASTER_METHOD,
+	RASTER_OUTSIDE,
+	RASTER_MAX_EDGE,
+	RASTER_WITHIN
 };
 
 /* Columns */
@@ -110,6 +114,8 @@ begin(FunctionCallInfo fcinfo, FuncCallContext *set)
 
 	interpolation_attribute(fcinfo, RASTER_ATTRIBUTE, abacus_names_of(&reader->header), &how);
 	interpolation_how(fcinfo, RASTER_METHOD, &how);
+	extent_arguments(fcinfo, RASTER_MAX_EDGE, RASTER_WITHIN, PG_GETARG_OID(RASTER_MESH), &reader->header,
+					 &how.extent);
 	raster_arguments(fcinfo, reader->header.facts.form.dimension, &raster);
 	units_tell_window(&reader->header.facts.form, raster.lower, raster.upper);
 	rows->reader = reader;
@@ -123,7 +129,7 @@ begin(FunctionCallInfo fcinfo, FuncCallContext *set)
 
 /*
  * abacus_raster(mesh regclass, lower float8[], upper float8[], width integer, height integer,
- *               attribute text, method text, outside text, max_edge float8)
+ *               attribute text, method text, outside text, max_edge float8, within text)
  *     -> row, values
  */
 Datum

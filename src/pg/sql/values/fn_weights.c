@@ -9,6 +9,7 @@
 #include "pg/base/sql_function.h"
 #include "pg/host/guard.h"
 #include "pg/mesh/mesh_cache.h"
+#include "pg/sql/arguments/extent.h"
 #include "pg/sql/arguments/interpolation.h"
 #include "pg/sql/arguments/place.h"
 #include "pg/sql/arguments/places.h"
@@ -23,12 +24,13 @@ enum
 	HOW_METHOD,
 	HOW_OUTSIDE,
 	HOW_MAX_EDGE,
+	HOW_WITHIN,
 	HOW_ARGUMENTS
 };
 
 /*
  * abacus_weights(mesh regclass, x float8, y float8[, z float8],
- *                method text, outside text, max_edge float8)
+ *                method text, outside text, max_edge float8, within text)
  *     -> vertex, weight
  */
 Datum
@@ -48,6 +50,8 @@ abacus_sql_weights(PG_FUNCTION_ARGS)
 		PG_RETURN_NULL();
 	cached = mesh_cache_get(PG_GETARG_OID(0));
 	interpolation_how(fcinfo, 1 + given + HOW_METHOD, &how);
+	extent_arguments(fcinfo, 1 + given + HOW_MAX_EDGE, 1 + given + HOW_WITHIN, PG_GETARG_OID(0),
+					 &cached->header, &how.extent);
 	if (!place_arguments(fcinfo, given, &cached->header.facts.form, point))
 		PG_RETURN_NULL();
 	status = host_run(cached->host, abacus_mesh_weigh, cached->mesh, &how, point, &weights,
@@ -85,7 +89,7 @@ put_weights(void *context, int64_t id, const abacus_weight *weights, size_t coun
 }
 
 /*
- * abacus_weights(mesh regclass, query text, method text, outside text, max_edge float8)
+ * abacus_weights(mesh regclass, query text, method text, outside text, max_edge float8, within text)
  *     -> id, vertex, weight
  */
 Datum
@@ -98,8 +102,11 @@ abacus_sql_weights_places(PG_FUNCTION_ARGS)
 	InitMaterializedSRF(fcinfo, 0);
 	if (interpolation_of_null(fcinfo, 1))
 		PG_RETURN_NULL();
+	places_open(&read, PG_GETARG_OID(0), ABACUS_MESH, text_to_cstring(PG_GETARG_TEXT_PP(1)));
 	interpolation_how(fcinfo, 2 + HOW_METHOD, &how);
-	places_read(&read, PG_GETARG_OID(0), ABACUS_MESH, text_to_cstring(PG_GETARG_TEXT_PP(1)));
+	how.extent.max_edge = extent_max_edge(fcinfo, 2 + HOW_MAX_EDGE);
+	how.extent.region = extent_within(fcinfo, 2 + HOW_WITHIN, PG_GETARG_OID(0), read.names.facts, 0);
+	places_fetch(&read);
 	answers.host = read.host;
 	host_run(read.host, abacus_places_weigh, read.places, &how, put_weights, &answers);
 	places_done(&read);

@@ -15,6 +15,7 @@
 #include "pg/base/settings.h"
 #include "pg/base/sql_function.h"
 #include "pg/mesh/reader.h"
+#include "pg/sql/arguments/extent.h"
 #include "pg/sql/arguments/interpolation.h"
 #include "pg/sql/arguments/units.h"
 #include "pg/sql/arguments/window.h"
@@ -33,7 +34,7 @@ enum
 	OF_LOWER,
 	OF_UPPER,
 	OF_MAX_EDGE,
-	OF_OTHER_ATTRIBUTE
+	OF_OTHER_ATTRIBUTE			/* if there is another mesh; within is the last one */
 };
 
 /* Columns of the result */
@@ -57,10 +58,12 @@ attribute(FunctionCallInfo fcinfo, int argument, abacus_names names)
 }
 
 static void
-surface_arguments(FunctionCallInfo fcinfo, abacus_names names, abacus_surface *surface)
+surface_arguments(FunctionCallInfo fcinfo, const abacus_header *header, abacus_surface *surface)
 {
+	abacus_names names = abacus_names_of(header);
+
 	window_arguments(fcinfo, OF_LOWER, WINDOW_BOX, &names.facts->form, &surface->window);
-	surface->max_edge = window_max_edge(fcinfo, OF_MAX_EDGE);
+	extent_arguments(fcinfo, OF_MAX_EDGE, PG_NARGS() - 1, PG_GETARG_OID(OF_MESH), header, &surface->extent);
 	surface->attribute = attribute(fcinfo, OF_ATTRIBUTE, names);
 }
 
@@ -95,7 +98,7 @@ volume_above(FunctionCallInfo fcinfo, double base)
 				 errhint("Give the height above which volumes are cut, and below which they are fill.")));
 	reader = reader_open(PG_GETARG_OID(OF_MESH), CurrentMemoryContext);
 	host = reader->host;
-	surface_arguments(fcinfo, abacus_names_of(&reader->header), &surface);
+	surface_arguments(fcinfo, &reader->header, &surface);
 	units_tell_volumes(&reader->header.facts.form);
 	progress_begin(&host->progress, PG_GETARG_OID(OF_MESH));
 	host_run(host, abacus_volume_above, &host->table, &reader->header.facts, &surface, base, &volume);
@@ -107,7 +110,7 @@ volume_above(FunctionCallInfo fcinfo, double base)
 
 /*
  * abacus_volume(mesh regclass, base float8, attribute text, lower float8[],
- *               upper float8[], max_edge float8) -> area, surface, cut, fill, net
+ *               upper float8[], max_edge float8, within text) -> area, surface, cut, fill, net
  */
 Datum
 abacus_sql_volume(PG_FUNCTION_ARGS)
@@ -162,7 +165,7 @@ volume_between(FunctionCallInfo fcinfo, Oid other)
 
 	require_plane(first);
 	require_plane(second);
-	surface_arguments(fcinfo, abacus_names_of(&first->header), &surface);
+	surface_arguments(fcinfo, &first->header, &surface);
 	units_tell_volumes(&first->header.facts.form);
 	other_attribute = attribute(fcinfo, other_name, abacus_names_of(&second->header));
 	progress_begin(&first->host->progress, PG_GETARG_OID(OF_MESH));
@@ -177,7 +180,8 @@ volume_between(FunctionCallInfo fcinfo, Oid other)
 
 /*
  * abacus_volume(mesh regclass, other regclass, attribute text, lower float8[],
- *               upper float8[], max_edge float8, other_attribute text)
+ *               upper float8[], max_edge float8, other_attribute text,
+ *               within text)
  *     -> area, surface, cut, fill, net
  */
 Datum

@@ -1,0 +1,100 @@
+/*
+ * extent.c: the arguments that say which simplices of a mesh count: max_edge and within.
+ */
+#include "postgres.h"
+
+#include <math.h>
+
+#include "access/table.h"
+#include "miscadmin.h"
+#include "utils/builtins.h"
+#include "utils/lsyscache.h"
+#include "utils/memutils.h"
+
+#include "pg/mesh/regions_table.h"
+#include "pg/sql/arguments/extent.h"
+
+/* The longest edge to return, or that simplices may have; 0 if any length is allowed. */
+double
+extent_max_edge(FunctionCallInfo fcinfo, int argument)
+{
+	double		value = PG_ARGISNULL(argument) ? 0 : PG_GETARG_FLOAT8(argument);
+
+	if (!isfinite(value) || value < 0)
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+				 errmsg("max_edge must be a finite number, at least 0"),
+				 errhint("Leave it out, or give 0, for edges of any length.")));
+	return value;
+}
+
+/* ---- within ---------------------------------------------------------------------------- */
+
+/* The region that was asked for last. A stamp stands for one state of one mesh, and never repeats. */
+typedef struct LastRegion
+{
+	Oid			user;			/* who may read the table of regions */
+	Oid			mesh;
+	uint64		stamp;			/* 0: there is none */
+	char	   *name;
+	uint32		number;
+} LastRegion;
+
+static LastRegion last;
+
+static uint32
+find_region(Oid mesh, const char *name)
+{
+	Relation	heap = table_open(mesh, NoLock);	/* locked since the mesh was got */
+	uint32		number = regions_table_number(heap, MESH_READ, name);
+
+	table_close(heap, NoLock);
+	return number;
+}
+
+static void
+remember(Oid mesh, uint64 stamp, const char *name, uint32 number)
+{
+	char	   *copy = MemoryContextStrdup(TopMemoryContext, name);
+
+	if (last.name != NULL)
+		pfree(last.name);
+	last = (LastRegion) {GetUserId(), mesh, stamp, copy, number};
+}
+
+/*
+ * The number of the region that is named; 0 if none is. Its name is remembered for the next call, if
+ * the stamp of the mesh is given.
+ */
+uint32
+extent_within(FunctionCallInfo fcinfo, int argument, Oid mesh, const abacus_facts *facts, uint64 stamp)
+{
+	char	   *name;
+	uint32		number;
+
+	if (PG_ARGISNULL(argument))
+		return 0;
+	name = text_to_cstring(PG_GETARG_TEXT_PP(argument));
+	if (facts->census.regions == 0)
+		ereport(ERROR,
+				(errcode(ERRCODE_UNDEFINED_OBJECT),
+				 errmsg("mesh \"%s\" has no region \"%s\"", get_rel_name(mesh), name),
+				 errdetail("It has no regions."),
+				 errhint("Make regions with abacus_region().")));
+	if (stamp != 0 && last.stamp == stamp && last.mesh == mesh && last.user == GetUserId() &&
+		strcmp(last.name, name) == 0)
+		return last.number;
+	number = find_region(mesh, name);
+	if (stamp != 0)
+		remember(mesh, stamp, name, number);
+	return number;
+}
+
+/* Both arguments. */
+void
+extent_arguments(FunctionCallInfo fcinfo, int max_edge, int within, Oid mesh, const abacus_header *header,
+				 abacus_extent *extent)
+{
+	extent->max_edge = extent_max_edge(fcinfo, max_edge);
+	extent->region = extent_within(fcinfo, within, mesh, &header->facts, header->stamp);
+}

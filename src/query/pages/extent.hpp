@@ -1,0 +1,51 @@
+// Which simplices count in a question: those without a long edge, and those in a region. Users
+// leave out others, such as those across open water. Exact.
+#pragma once
+
+#include "geometry/ball.hpp"
+#include "mesh/cache.hpp"
+
+#include <abacus/extent.h>
+#include <abacus/simplex.h>
+
+namespace abacus {
+
+inline bool is_all(const abacus_extent &extent) {
+    return extent.max_edge == 0 && extent.region == no_region;
+}
+
+/// Whether none of the edges between n points, point(0) to point(n - 1), is longer than a bound.
+template <int D, class PointOf> bool has_short_edges(int n, double bound, PointOf point) {
+    for (int i = 0; i < n; ++i)
+        for (int j = 0; j < i; ++j)
+            if (!is_within<D>(bound, point(i), point(j))) return false;
+    return true;
+}
+
+/// Of a simplex, or of a ghost by its n finite corners.
+template <int D, class PointOf>
+bool is_in(const abacus_extent &extent, RegionNumber region, int n, PointOf point) {
+    return (extent.region == no_region || region == extent.region) &&
+           (extent.max_edge == 0 || has_short_edges<D>(n, extent.max_edge, point));
+}
+template <int D>
+bool is_in(const abacus_extent &extent, RegionNumber region, const Corners<D> &corners) {
+    return is_in<D>(extent, region, D + 1, [&](int i) -> const Point<D> & { return *corners[i]; });
+}
+template <int D>
+bool is_in(const abacus_extent &extent, const PageView<D> &page, int simplex, int n = D + 1) {
+    return is_in<D>(extent, page.region(simplex), n,
+                    [&](int i) -> const Point<D> & { return page.point(page.corner(simplex, i)); });
+}
+template <int D> bool is_in(const abacus_extent &extent, const Cache<D> &cache, Handle h) {
+    return is_in<D>(extent, cache.region(h), cache.corners(cache.simplex(h)));
+}
+template <int D> bool is_in(const abacus_extent &extent, const abacus_simplex &simplex) {
+    return is_in<D>(extent, simplex.region, D + 1, [&](int i) {
+        Point<D> p;
+        std::copy_n(simplex.corner[i], D, p.begin());
+        return p;
+    });
+}
+
+} // namespace abacus
