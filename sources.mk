@@ -355,6 +355,7 @@ PG_SOURCES += src/pg/sql/constrain/fn_constrain.c
 PG_SOURCES += src/pg/sql/constrain/fn_crossings.c
 PG_SOURCES += src/pg/sql/constrain/fn_lines.c
 PG_SOURCES += src/pg/sql/constrain/fn_region.c
+PG_SOURCES += src/pg/sql/constrain/regions_fault.c
 PG_SOURCES += src/pg/sql/draw/drawing.c
 PG_SOURCES += src/pg/sql/draw/fn_draw.c
 PG_SOURCES += src/pg/sql/draw/fn_tile.c

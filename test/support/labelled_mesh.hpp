@@ -250,7 +250,8 @@ private:
     template <class Take>
     void each_cell(const abacus_window &window, const abacus_range *range, Take take) {
         abacus_cells *cells = nullptr;
-        ASSERT_EQ(abacus_cells_open(mesh.host.table(), &mesh.header.facts, &window, 0, range,
+        const abacus_extent all{};
+        ASSERT_EQ(abacus_cells_open(mesh.host.table(), &mesh.header.facts, &window, &all, range,
                                     &cells, &mesh.error),
                   ABACUS_OK);
         abacus_simplex simplex;

@@ -24,15 +24,14 @@ using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_
 TYPED_TEST_SUITE(Interpolation, Dimensions);
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t little = 60 << 10;
 
 abacus_interpolation how(abacus_method method, abacus_outside outside = ABACUS_OUTSIDE_NOTHING,
-                         double max_edge = infinity) {
+                         double max_edge = 0) {
     abacus_interpolation how{};
     how.method = method;
     how.outside = outside;
-    how.max_edge = max_edge;
+    how.extent.max_edge = max_edge;
     how.attributes = 1;
     return how;
 }

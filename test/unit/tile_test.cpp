@@ -189,7 +189,7 @@ TEST(VectorTile, HasTheTrianglesAndVerticesOfItsWindow) {
     }
     // All triangles with a corner well inside are there, and none that is far outside.
     const Host host = mesh->host.host();
-    CellScan<2> cells(host, mesh->header, abacus_window{}, 0);
+    CellScan<2> cells(host, mesh->header, abacus_window{}, {});
     const std::uint32_t attribute = 0;
     CornerValues values(&attribute, 1);
     abacus_simplex simplex;

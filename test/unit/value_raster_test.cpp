@@ -74,13 +74,13 @@ template <int D> void expect_rasters(MeshOf<D> &mesh, double extent, bool is_del
         raster.height = is_lattice ? cells : 47;
         for (const abacus_method method : {ABACUS_LINEAR, ABACUS_NATURAL, ABACUS_NEAREST})
             for (const abacus_outside outside : {ABACUS_OUTSIDE_NOTHING, ABACUS_OUTSIDE_NEAREST})
-                for (const double max_edge : {no_max_edge, D == 2 ? 1.45 : 1.8})
+                for (const double max_edge : {0.0, D == 2 ? 1.45 : 1.8})
                     for (const std::size_t memory : {std::size_t(100), ample}) {
                         if (method == ABACUS_NATURAL && !is_delaunay) continue;
                         if (method != ABACUS_LINEAR && memory == 100) continue;
                         how.method = method;
                         how.outside = outside;
-                        how.max_edge = max_edge;
+                        how.extent.max_edge = max_edge;
                         expect_raster<D>(mesh, raster, how, memory);
                         if (testing::Test::HasFatalFailure()) return;
                     }

@@ -87,7 +87,7 @@ find_parts(const char *lines)
 	static const NamedColumn columns[] = {
 		{"region", TEXTOID}, {"line", INT8OID}, {"x", FLOAT8OID}, {"y", FLOAT8OID}
 	};
-	char	   *segments = psprintf(OUTLINE_SEGMENTS, REGION_ROWS, lines);
+	char	   *segments = psprintf(OUTLINE_SEGMENTS, "(SELECT DISTINCT region, line FROM " REGION_ROWS ")", lines);
 
 	return named_rows_of_query(
 		NEW_PARTS, columns, lengthof(columns),

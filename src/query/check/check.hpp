@@ -9,7 +9,8 @@
 //   topology  every link leads, by its stored key, to the simplex with the same facet
 //             in the opposite orientation; pages agree about the vertices they share;
 //             across every facet that is not fixed the empty-sphere criterion holds under
-//             the perturbation, both sides say whether it is fixed, and the hull is convex;
+//             the perturbation, and both sides are in the same region; both say whether it is
+//             fixed, and the hull is convex;
 //             simplices wind once around vertices and edges, and form one piece
 //   points    every repeated point equals a vertex; the sequence of those that wait is
 //             whole; the counts add up

@@ -34,7 +34,10 @@ template <int D> void TopologyCheck<D>::check_simplex(Handle h) {
         const Link link = cache_.cross(h, i); // throws unless it leads to a true neighbour
         const Simplex<D> &neighbour = cache_.simplex(link_simplex(link));
         const VertexIndex opposite = neighbour.vertex[link_facet(link)];
-        if (opposite == infinite_vertex || !is_own_ || cache_.is_fixed(make_link(h, i))) continue;
+        if (cache_.is_fixed(make_link(h, i))) continue;
+        if (cache_.region(h) != cache_.region(link_simplex(link)))
+            faults_.add("regions", "A region ends at an edge that is not fixed.");
+        if (opposite == infinite_vertex || !is_own_) continue;
         check_empty_sphere(cache_.simplex(h), cache_.point(opposite));
     }
 }

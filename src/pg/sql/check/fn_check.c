@@ -17,6 +17,7 @@
 #include "pg/base/sql_function.h"
 #include "pg/mesh/numbering.h"
 #include "pg/sql/constrain/fixed_edges.h"
+#include "pg/sql/constrain/regions_fault.h"
 #include "pg/sql/rows/result.h"
 #include "pg/store/page_search.h"
 
@@ -164,6 +165,18 @@ check_lines(Checking *checking, Oid mesh, const abacus_facts *facts)
 		note_fault(checking, "lines", header_key, fault);
 }
 
+/* The same with its regions. */
+static void
+check_regions(Checking *checking, Oid mesh, const abacus_facts *facts)
+{
+	char	   *fault = NULL;
+
+	if (!checking->has_fault && facts->census.regions > 0 && facts->census.lines_wait == 0)
+		fault = regions_fault(mesh);
+	if (fault != NULL)
+		note_fault(checking, "regions", header_key, fault);
+}
+
 static Checking *
 begin_check(Oid mesh, int32 limit, MemoryContext memory)
 {
@@ -185,7 +198,10 @@ begin_check(Oid mesh, int32 limit, MemoryContext memory)
 	if (!checking->has_fault)
 		look_for_first_fault(checking);
 	if (!checking->has_fault && limit > 0)
+	{
 		check_lines(checking, mesh, &header.facts);
+		check_regions(checking, mesh, &header.facts);
+	}
 	if (checking->has_fault)
 		host_doubt_pages(checking->host);
 	else if (checking->host->handle != NULL)

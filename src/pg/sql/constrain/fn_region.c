@@ -7,16 +7,12 @@
 #include "funcapi.h"
 #include "utils/builtins.h"
 
-#include "pg/base/settings.h"
 #include "pg/base/sql_function.h"
-#include "pg/host/guard.h"
-#include "pg/lines/named_rows.h"
 #include "pg/lines/new_lines.h"
 #include "pg/lines/new_regions.h"
-#include "pg/mesh/mesh_cache.h"
-#include "pg/mesh/mesh_regions.h"
 #include "pg/mesh/regions_table.h"
 #include "pg/port/port.h"
+#include "pg/sql/constrain/regions_fault.h"
 
 SQL_FUNCTION(abacus_sql_region);
 SQL_FUNCTION(abacus_sql_unregion);
@@ -67,45 +63,6 @@ abacus_sql_unregion(PG_FUNCTION_ARGS)
 
 /* ---- abacus_regions -------------------------------------------------------------------- */
 
-#define REGION_SIZES "abacus_region_sizes"
-
-typedef struct Sizes
-{
-	Host	   *host;
-	NamedRows  *rows;
-} Sizes;
-
-/* Called by the core. */
-static abacus_host_status
-put_size(void *context, const abacus_region_size *size)
-{
-	const Sizes *sizes = context;
-	Datum		values[4];
-	bool		isnull[4] = {false};
-
-	GUARD_BEGIN();
-	values[0] = Int32GetDatum((int32) size->region);
-	values[1] = Int64GetDatum((int64) size->triangles);
-	values[2] = Float8GetDatum(size->area);
-	values[3] = Int64GetDatum((int64) size->edges);
-	named_rows_put(sizes->rows, values, isnull);
-	GUARD_END(sizes->host);
-	return ABACUS_HOST_OK;
-}
-
-/* The sizes of all regions that have triangles, as rows with a name. */
-static NamedRows *
-read_sizes(CachedMesh *cached)
-{
-	static const NamedColumn columns[] = {
-		{"number", INT4OID}, {"triangles", INT8OID}, {"area", FLOAT8OID}, {"edges", INT8OID}
-	};
-	Sizes		sizes = {cached->host, named_rows_create(REGION_SIZES, columns, lengthof(columns))};
-
-	host_run(cached->host, abacus_region_sizes, cached->mesh, setting_query_sort_bytes(), put_size, &sizes);
-	return sizes.rows;
-}
-
 /* The name of the table of regions in SQL; NULL if there are none. */
 static char *
 table_of(Oid mesh, bool has_regions)
@@ -139,7 +96,7 @@ abacus_sql_regions(PG_FUNCTION_ARGS)
 		PG_RETURN_NULL();
 	}
 	SPI_connect();
-	sizes = read_sizes(cached);
+	sizes = region_sizes_read(cached);
 	host_release(cached->host);
 	level = plain_names_begin(false);
 	named_rows_register(sizes);

@@ -1,0 +1,93 @@
+/*
+ * regions_fault.c: whether the regions of a mesh are those of its table; and how large they are.
+ */
+#include "postgres.h"
+
+#include "access/table.h"
+#include "catalog/pg_type.h"
+#include "executor/spi.h"
+#include "utils/memutils.h"
+
+#include "abacus/regions.h"
+#include "pg/base/settings.h"
+#include "pg/host/guard.h"
+#include "pg/mesh/regions_table.h"
+#include "pg/sql/constrain/regions_fault.h"
+
+typedef struct Sizes
+{
+	Host	   *host;
+	NamedRows  *rows;
+} Sizes;
+
+/* Called by the core. */
+static abacus_host_status
+put_size(void *context, const abacus_region_size *size)
+{
+	const Sizes *sizes = context;
+	Datum		values[4];
+	bool		isnull[4] = {false};
+
+	GUARD_BEGIN();
+	values[0] = Int32GetDatum((int32) size->region);
+	values[1] = Int64GetDatum((int64) size->triangles);
+	values[2] = Float8GetDatum(size->area);
+	values[3] = Int64GetDatum((int64) size->edges);
+	named_rows_put(sizes->rows, values, isnull);
+	GUARD_END(sizes->host);
+	return ABACUS_HOST_OK;
+}
+
+/* The sizes of all regions that have triangles, as rows with a name. */
+NamedRows *
+region_sizes_read(CachedMesh *cached)
+{
+	static const NamedColumn columns[] = {
+		{"number", INT4OID}, {"triangles", INT8OID}, {"area", FLOAT8OID}, {"edges", INT8OID}
+	};
+	Sizes		sizes = {cached->host, named_rows_create(REGION_SIZES, columns, lengthof(columns))};
+
+	host_run(cached->host, abacus_region_sizes, cached->mesh, setting_query_sort_bytes(), put_size, &sizes);
+	return sizes.rows;
+}
+
+/*
+ * Looks for a fault of the regions of a sound mesh: a number that no region has, or several, a region
+ * without triangles, regions that are not counted. Returns what is wrong, or NULL.
+ */
+char *
+regions_fault(Oid mesh)
+{
+	CachedMesh *cached = mesh_cache_get(mesh);
+	uint64		regions = cached->header.facts.census.regions;
+	uint64		seeded = cached->header.facts.census.seeded;
+	Relation	heap = table_open(mesh, NoLock);
+	char	   *table = regions_table_require(heap, MESH_READ);
+	const char *fault = NULL;
+	NamedRows  *sizes;
+	Datum		counts[4];
+	bool		isnull[4];
+	int			level;
+
+	table_close(heap, NoLock);
+	SPI_connect();
+	sizes = region_sizes_read(cached);
+	host_release(cached->host);
+	level = plain_names_begin(false);
+	named_rows_register(sizes);
+	query_first(psprintf("SELECT (SELECT count(*) FROM (SELECT DISTINCT region, number FROM %1$s) AS r), "
+						 "(SELECT count(DISTINCT region) FROM %1$s WHERE line IS NULL), "
+						 "(SELECT count(*) FROM " REGION_SIZES " AS s WHERE NOT EXISTS (SELECT FROM %1$s AS r WHERE r.number = s.number)), "
+						 "(SELECT count(*) FROM %1$s AS r WHERE NOT EXISTS (SELECT FROM " REGION_SIZES " AS s WHERE r.number = s.number))",
+						 table), counts, isnull, 4);
+	plain_names_end(level);
+	named_rows_free(sizes);
+	SPI_finish();
+	if ((uint64) DatumGetInt64(counts[0]) != regions || (uint64) DatumGetInt64(counts[1]) != seeded)
+		fault = "The header counts more or fewer regions than there are.";
+	else if (DatumGetInt64(counts[2]) > 0)
+		fault = "Triangles have the number of a region that does not exist.";
+	else if (DatumGetInt64(counts[3]) > 0)
+		fault = "A region has no triangles.";
+	return fault == NULL ? NULL : pstrdup(fault);
+}
