@@ -14,6 +14,7 @@
  *   windows.h    simplices, vertices and edges of a window; scan.h: all, in order
  *   contours.h, surface.h, shapes.h, volume.h   lines, surfaces, outlines, volumes
  *   crossings.h                                 where segments of lines cross
+ *   constrain.h, regions.h, extent.h            fixed edges, regions between them, questions within
  *   draw.h, raycast.h, tile.h                   pictures
  *   octree.h, octree_ask.h                      octrees
  *   check.h                                     verification
@@ -41,6 +42,7 @@
 #include "abacus/contours.h"
 #include "abacus/crossings.h"
 #include "abacus/draw.h"
+#include "abacus/extent.h"
 #include "abacus/facts.h"
 #include "abacus/goose.h"
 #include "abacus/host_functions.h"
@@ -57,6 +59,7 @@
 #include "abacus/quake.h"
 #include "abacus/raster.h"
 #include "abacus/raycast.h"
+#include "abacus/regions.h"
 #include "abacus/scan.h"
 #include "abacus/shapes.h"
 #include "abacus/simplex.h"

@@ -37,6 +37,8 @@ typedef struct abacus_segment
 ABACUS_API abacus_status abacus_segments_add(abacus_segments *segments,
 											 const abacus_segment *added, size_t count,
 											 abacus_error *error);
+/* Gives the spools back: the last call before it is closed, unless something has failed. */
+ABACUS_API abacus_status abacus_segments_end(abacus_segments *segments, abacus_error *error);
 ABACUS_API void abacus_segments_close(abacus_segments *segments);
 
 /* ---- Lines, as the host keeps them ------------------------------------------------ */

@@ -28,10 +28,14 @@ abacus_status abacus_segments_add(abacus_segments *segments, const abacus_segmen
     });
 }
 
-void abacus_segments_close(abacus_segments *segments) {
-    if (segments != nullptr) segments->segments.close();
-    abacus::destroy_handle(segments);
+abacus_status abacus_segments_end(abacus_segments *segments, abacus_error *error) {
+    return abacus::guard(error, [&] {
+        segments->segments.close();
+        return ABACUS_OK;
+    });
 }
+
+void abacus_segments_close(abacus_segments *segments) { abacus::destroy_handle(segments); }
 
 abacus_status abacus_build_lines(abacus_build *build, abacus_segments_at at, void *context,
                                  abacus_error *error) {

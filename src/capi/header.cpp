@@ -4,6 +4,8 @@
 // have one form: all these words, how many vertices share their places, and then the names, unless
 // there are so many that they have rows of their own. A user can write any bytes into these rows,
 // so decoding checks every field; it accepts exactly the bytes that encoding can produce.
+#include "capi/header_words.hpp"
+
 #include "capi/guard.hpp"
 
 #include <abacus/mesh_header.h>
@@ -35,65 +37,6 @@ constexpr std::uint64_t count_limit = std::uint64_t{1} << 62;
 constexpr std::size_t counter_count = sizeof(abacus_counters) / sizeof(std::uint64_t);
 /// Older headers do not have the last counters.
 constexpr std::size_t least_counters = offsetof(abacus_counters, passes) / sizeof(std::uint64_t);
-
-/// A name of 63 bytes at most, and zeros; then the type of the column, which was 0 before there
-/// were types: doubles.
-constexpr std::size_t type_byte = ABACUS_NAME_BYTES - 1;
-
-class Writer {
-public:
-    explicit Writer(unsigned char *bytes) : begin_(bytes), at_(bytes) {}
-    void operator()(std::uint64_t value) {
-        for (int i = 0; i < 8; ++i) *at_++ = static_cast<unsigned char>(value >> (8 * i));
-    }
-    void operator()(std::uint32_t value) { (*this)(std::uint64_t{value}); }
-    void operator()(double value) { (*this)(std::bit_cast<std::uint64_t>(value)); }
-    void names(const abacus_header &header, unsigned begin, unsigned end) {
-        for (unsigned i = begin; i < end; ++i) {
-            const std::size_t length = strnlen(header.names[i], ABACUS_NAME_BYTES - 1);
-            std::memcpy(at_, header.names[i], length);
-            std::memset(at_ + length, 0, ABACUS_NAME_BYTES - length);
-            at_[type_byte] = header.types[i];
-            at_ += ABACUS_NAME_BYTES;
-        }
-    }
-    std::size_t size() const { return static_cast<std::size_t>(at_ - begin_); }
-
-private:
-    unsigned char *begin_, *at_;
-};
-
-class HeaderReader {
-public:
-    HeaderReader(const unsigned char *bytes, std::size_t size) : at_(bytes), end_(bytes + size) {}
-    void operator()(std::uint64_t &value) {
-        const unsigned char *from = take(8);
-        value = 0;
-        for (int i = 0; i < 8; ++i) value |= std::uint64_t{from[i]} << (8 * i);
-    }
-    void operator()(std::uint32_t &value) {
-        std::uint64_t wide;
-        (*this)(wide);
-        if (wide > UINT32_MAX) throw_corrupted("A number in the header is out of range.");
-        value = static_cast<std::uint32_t>(wide);
-    }
-    void operator()(double &value) {
-        std::uint64_t bits;
-        (*this)(bits);
-        value = std::bit_cast<double>(bits);
-    }
-    const char *text(std::size_t size) { return reinterpret_cast<const char *>(take(size)); }
-    std::size_t left() const { return static_cast<std::size_t>(end_ - at_); }
-
-private:
-    const unsigned char *take(std::size_t size) {
-        if (size > left()) throw_corrupted("The header is too short.");
-        at_ += size;
-        return at_ - size;
-    }
-
-    const unsigned char *at_, *end_;
-};
 
 /// The fields of the header in their order in the row, up to the names.
 template <class Header, class Visit> void visit_fields(Header &header, Visit &visit) {
@@ -403,7 +346,7 @@ uint32_t abacus_are_apart(uint32_t dimension, uint32_t attributes) {
 size_t abacus_header_encode(const abacus_header *header, unsigned char *bytes) {
     using namespace abacus;
     const abacus_facts &facts = header->facts;
-    Writer write(bytes);
+    HeaderWriter write(bytes);
     if (facts.form.type == ABACUS_OCTREE) {
         write(octree_name | octree_format << name_bits);
         visit_octree_fields(*header, write);
@@ -436,7 +379,7 @@ uint32_t abacus_header_name_rows(const abacus_columns *columns) {
 
 size_t abacus_header_encode_names(const abacus_header *header, uint32_t row, unsigned char *bytes) {
     using namespace abacus;
-    Writer write(bytes);
+    HeaderWriter write(bytes);
     write.names(*header, first_name(header->facts.columns, row),
                 first_name(header->facts.columns, row + 1));
     return write.size();

@@ -47,10 +47,7 @@ abacus_status abacus_region_parts_seed(abacus_region_parts *parts, uint32_t regi
     });
 }
 
-void abacus_region_parts_close(abacus_region_parts *parts) {
-    parts->parts.close();
-    abacus::destroy_handle(parts);
-}
+void abacus_region_parts_close(abacus_region_parts *parts) { abacus::destroy_handle(parts); }
 
 abacus_status abacus_build_fill_regions(abacus_build *build, abacus_region_parts *parts,
                                         abacus_header *header, abacus_region_fault *fault,

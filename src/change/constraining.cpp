@@ -88,11 +88,13 @@ template <int D>
 bool Constraining<D>::fill_regions(RegionParts &parts, abacus_region_fault &fault) {
     bool is_sound = true;
     with_regions(parts.memory(), [&](auto &regions) { is_sound = regions.fill(parts, fault); });
+    if (is_sound) parts.close();
     return is_sound;
 }
 
 template <int D> void Constraining<D>::clear_regions(RegionParts &parts) {
     with_regions(parts.memory(), [&](auto &regions) { regions.clear(parts); });
+    parts.close();
 }
 
 template <int D>

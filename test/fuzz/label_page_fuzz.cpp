@@ -16,8 +16,8 @@ void each_simplex(Mesh &mesh, Take take, const abacus_range *range = nullptr) {
         abacus_window window{};
         abacus_cells *cells = nullptr;
         const abacus_extent all{};
-        abacus_status status = abacus_cells_open(mesh.host.table(), &mesh.header.facts, &window, &all,
-                                                 range, &cells, &error);
+        abacus_status status = abacus_cells_open(mesh.host.table(), &mesh.header.facts, &window,
+                                                 &all, range, &cells, &error);
         if (status != ABACUS_OK) return status;
         abacus_simplex simplex;
         const double *labels = nullptr;

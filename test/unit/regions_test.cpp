@@ -1,6 +1,6 @@
 // Regions: after each change every triangle is in the region that its outlines or seeds give it. Of
-// outlines that is checked in whole numbers: how often a ray from the middle of a triangle crosses them.
-// Of seeds, by flooding all triangles in memory.
+// outlines that is checked in whole numbers: how often a ray from the middle of a triangle crosses
+// them. Of seeds, by flooding all triangles in memory.
 #include "constrain/fixing.hpp"
 #include "constrain/freeing.hpp"
 #include "constrain/regions.hpp"
@@ -59,7 +59,8 @@ public:
     void add_line(std::int64_t line, const Ring &ring) {
         for (const Point<2> &p : ring) insert(p);
         lines[line] = ring;
-        for (const auto &[a, b] : segments_of(ring)) Fixing(mesh.delaunay, 3).fix(a, b, Fixed::hard);
+        for (const auto &[a, b] : segments_of(ring))
+            Fixing(mesh.delaunay, 3).fix(a, b, Fixed::hard);
     }
     bool fill(const std::map<RegionNumber, std::vector<std::int64_t>> &outlines,
               const std::map<RegionNumber, std::vector<Point<2>>> &seeds,
@@ -67,7 +68,8 @@ public:
         RegionParts parts(mesh.cache.host(), memory);
         for (const auto &[region, of] : outlines)
             for (const std::int64_t line : of)
-                for (const auto &[a, b] : segments_of(lines.at(line))) parts.add_outline(region, a, b);
+                for (const auto &[a, b] : segments_of(lines.at(line)))
+                    parts.add_outline(region, a, b);
         for (const auto &[region, of] : seeds)
             for (const Point<2> &p : of) parts.add_seed(region, p);
         const bool is_sound = Regions(mesh.delaunay, memory).fill(parts, fault);
@@ -203,9 +205,9 @@ TEST(Regions, OutlinesFollowParityThroughChanges) {
         Random random(seed);
         Regioned mesh(random, 40, 300, seed % 2 == 0 ? little : 20 * little);
         mesh.add_line(1, box_ring(4, 4, 20));
-        mesh.add_line(2, box_ring(8, 8, 8));            // a hole
-        mesh.add_line(3, box_ring(10, 10, 4));          // an island in it
-        mesh.add_line(4, box_ring(24, 4, 12));          // shares a part of an edge with the first
+        mesh.add_line(2, box_ring(8, 8, 8));   // a hole
+        mesh.add_line(3, box_ring(10, 10, 4)); // an island in it
+        mesh.add_line(4, box_ring(24, 4, 12)); // shares a part of an edge with the first
         mesh.add_line(5, {{24, 24}, {36, 24}, {30, 36}, {24, 24}}); // touches it in a vertex
         mesh.add_line(6, box_ring(0, 0, 4));
         mesh.add_line(7, {{12, 30}, {14, 34}}); // a line in no region
@@ -233,7 +235,8 @@ TEST(Regions, PartsThatOverlapLeaveThoseOfOddParity) {
     Regioned mesh(random, 30, 200, little);
     mesh.add_line(1, box_ring(2, 2, 10));
     mesh.add_line(2, {{12, 2}, {22, 2}, {22, 12}, {12, 12}, {12, 2}});
-    mesh.add_line(3, {{2, 2}, {22, 2}, {22, 20}, {2, 20}, {2, 2}}); // around both, along their edges
+    mesh.add_line(3,
+                  {{2, 2}, {22, 2}, {22, 20}, {2, 20}, {2, 2}}); // around both, along their edges
     const std::map<RegionNumber, std::vector<std::int64_t>> outlines{{5, {1, 2, 3}}};
     abacus_region_fault fault{};
     ASSERT_TRUE(mesh.fill(outlines, {}, fault));

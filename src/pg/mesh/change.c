@@ -314,8 +314,7 @@ change_fix(Change *change)
 {
 	change_open_build(change);
 	mesh_lines_fix(&change->writer, change->build, change->fixed);
-	abacus_segments_close(change->fixed);
-	change->fixed = NULL;
+	mesh_lines_close(change->writer.host, &change->fixed);
 }
 
 /*
@@ -330,8 +329,7 @@ change_unfix(Change *change)
 
 	change_open_build(change);
 	host_run(host, abacus_build_unfix, change->build, change->freed, header);
-	abacus_segments_close(change->freed);
-	change->freed = NULL;
+	mesh_lines_close(host, &change->freed);
 	mesh_lines_fix_left(&change->writer, change->build, &change->fixed);
 }
 

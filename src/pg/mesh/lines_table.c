@@ -16,7 +16,7 @@
 #include "utils/lsyscache.h"
 
 #include "pg/mesh/lines_table.h"
-#include "pg/mesh/side_table.h"
+#include "pg/mesh/new_table.h"
 #include "pg/port/port.h"
 
 /* The name of the table in SQL, with its schema. */

@@ -222,6 +222,15 @@ mesh_lines_open(Writer *writer, abacus_segments **segments)
 			 segments);
 }
 
+/* Closes a collection that has been used. */
+void
+mesh_lines_close(Host *host, abacus_segments **segments)
+{
+	host_run(host, abacus_segments_end, *segments);
+	abacus_segments_close(*segments);
+	*segments = NULL;
+}
+
 /* Called when lines cross: asks the build, which has the vertices of this change. */
 static bool
 is_vertex(void *context, const double *place)
@@ -284,8 +293,7 @@ mesh_lines_fix_waiting(Writer *writer, abacus_build *build, abacus_segments **se
 	SPI_finish();
 	fix(writer, build, *segments);
 	mesh_regions_renew(writer, build);
-	abacus_segments_close(*segments);
-	*segments = NULL;
+	mesh_lines_close(host, segments);
 	census->lines_wait = 0;
 }
 

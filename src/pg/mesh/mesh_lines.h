@@ -10,6 +10,7 @@
 extern void mesh_lines_attach(Host *host, abacus_build *build);
 extern void mesh_lines_add(Host *host, abacus_segments *segments, const char *query);
 extern void mesh_lines_open(Writer *writer, abacus_segments **segments);
+extern void mesh_lines_close(Host *host, abacus_segments **segments);
 extern void mesh_lines_fix(Writer *writer, abacus_build *build, abacus_segments *segments);
 extern void mesh_lines_fix_waiting(Writer *writer, abacus_build *build, abacus_segments **segments);
 extern void mesh_lines_fix_left(Writer *writer, abacus_build *build, abacus_segments **segments);

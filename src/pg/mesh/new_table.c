@@ -1,12 +1,16 @@
 /*
  * new_table.c: protects a table while a CREATE TABLE of ours makes it. Others may drop its schema
  * before, drop the table after (by an event trigger), or make another one with that name.
+ * Tables of lines and regions belong to the owner of their mesh, and are bound to it.
  */
 #include "postgres.h"
 
+#include "access/xact.h"
 #include "catalog/namespace.h"
 #include "catalog/pg_class.h"
 #include "commands/comment.h"
+#include "miscadmin.h"
+#include "utils/acl.h"
 #include "utils/builtins.h"
 #include "utils/lsyscache.h"
 #include "utils/varlena.h"
@@ -14,6 +18,7 @@
 #include "pg/base/utility.h"
 #include "pg/mesh/mesh.h"
 #include "pg/mesh/new_table.h"
+#include "pg/port/port.h"
 
 /* A name as in SQL, perhaps with a schema. */
 RangeVar *
@@ -120,4 +125,66 @@ new_table_describe(Oid table, const char *what, Oid row, int columns)
 	for (int32 column = 1; column <= columns; column++)
 		CreateComments(table, RelationRelationId, column,
 					   GetComment(row, RelationRelationId, column));
+}
+
+/* ---- Tables beside a mesh -------------------------------------------------------------- */
+
+static void
+check_may_make(Relation mesh, const NewSideTable *made, const char *name)
+{
+	const char *mesh_name = RelationGetRelationName(mesh);
+
+	if (!object_ownercheck(RelationRelationId, RelationGetRelid(mesh), GetUserId()))
+		ereport(ERROR,
+				(errcode(ERRCODE_INSUFFICIENT_PRIVILEGE),
+				 errmsg("must be owner of mesh \"%s\" to give it its first %s", mesh_name, made->contents),
+				 errdetail("They make the table \"%s\".", name),
+				 errhint("Its owner can call %s, and grant privileges on that table.", made->maker)));
+	if (strlen(name) >= NAMEDATALEN)
+		ereport(ERROR,
+				(errcode(ERRCODE_NAME_TOO_LONG),
+				 errmsg("name of mesh \"%s\" is too long for a mesh with %s", mesh_name, made->contents),
+				 errdetail("The table \"%s\" would belong to it; names have at most %d bytes.", name,
+						   NAMEDATALEN - 1),
+				 errhint("Rename the mesh and its vertex table.")));
+	new_table_check_name(RelationGetNamespace(mesh), name);
+}
+
+/* Runs CREATE as the owner of the mesh, who will own the table as well. */
+void
+side_table_create(Relation mesh, const char *command, const char *name)
+{
+	Oid			user;
+	int			security;
+
+	GetUserIdAndSecContext(&user, &security);
+	if (mesh->rd_rel->relowner != user)
+		SetUserIdAndSecContext(mesh->rd_rel->relowner, security | SECURITY_LOCAL_USERID_CHANGE);
+	new_table_create(command, name);
+	SetUserIdAndSecContext(user, security);
+}
+
+/* Makes the table, which the mesh must not have. */
+Oid
+side_table_make(Relation mesh, const NewSideTable *made)
+{
+	Oid			schema = RelationGetNamespace(mesh);
+	char	   *name = psprintf("%s%s", RelationGetRelationName(mesh), made->suffix);
+	Oid			type_schema = get_rel_namespace(get_typ_typrelid(mesh->rd_rel->reloftype));
+	Oid			table;
+
+	check_may_make(mesh, made, name);
+	side_table_create(mesh,
+					  psprintf("CREATE %sTABLE %s OF %s (%s) USING heap",
+							   mesh->rd_rel->relpersistence == RELPERSISTENCE_UNLOGGED ? "UNLOGGED " : "",
+							   quote_qualified_identifier(get_namespace_name(schema), name),
+							   quote_qualified_identifier(get_namespace_name(type_schema), made->type),
+							   made->options),
+					  name);
+	table = new_table_id(schema, name);
+	new_table_describe(table, psprintf("%s of a mesh: see %s", made->contents, made->reader),
+					   get_relname_relid(made->type, type_schema), made->columns);
+	mesh_bind_table(RelationGetRelid(mesh), table);
+	CommandCounterIncrement();
+	return table;
 }

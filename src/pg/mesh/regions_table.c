@@ -12,7 +12,7 @@
 
 #include "pg/mesh/lines_table.h"
 #include "pg/mesh/regions_table.h"
-#include "pg/mesh/side_table.h"
+#include "pg/mesh/new_table.h"
 
 /* The table of the regions of a mesh that gets regions. */
 Oid

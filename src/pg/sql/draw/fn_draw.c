@@ -16,7 +16,7 @@
 #include "pg/mesh/reader.h"
 #include "pg/mesh/shape.h"
 #include "pg/sql/arguments/attribute.h"
-#include "pg/sql/arguments/extent.h"
+#include "pg/sql/arguments/extent_arguments.h"
 #include "pg/sql/arguments/units.h"
 #include "pg/sql/arguments/word.h"
 #include "pg/sql/draw/drawing.h"

@@ -14,7 +14,7 @@
 #include "pg/mesh/reader.h"
 #include "pg/mesh/shape.h"
 #include "pg/sql/arguments/attribute.h"
-#include "pg/sql/arguments/extent.h"
+#include "pg/sql/arguments/extent_arguments.h"
 #include "pg/sql/draw/drawing.h"
 
 SQL_FUNCTION(abacus_sql_tile_picture);

@@ -20,7 +20,7 @@
 #include "pg/mesh/reader.h"
 #include "pg/mesh/shape.h"
 #include "pg/sql/arguments/attribute.h"
-#include "pg/sql/arguments/extent.h"
+#include "pg/sql/arguments/extent_arguments.h"
 #include "pg/sql/arguments/missing.h"
 #include "pg/sql/arguments/window.h"
 #include "pg/sql/rows/answers.h"

@@ -11,7 +11,7 @@
 #include "abacus/lines.h"
 #include "pg/base/sql_function.h"
 #include "pg/mesh/mesh_cache.h"
-#include "pg/sql/arguments/extent.h"
+#include "pg/sql/arguments/extent_arguments.h"
 #include "pg/sql/arguments/interpolation.h"
 #include "pg/sql/arguments/line.h"
 #include "pg/sql/rows/result.h"

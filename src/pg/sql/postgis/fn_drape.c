@@ -23,7 +23,7 @@
 #include "pg/mesh/mesh_cache.h"
 #include "pg/postgis/geometry_errors.h"
 #include "pg/postgis/geometry_write.h"
-#include "pg/sql/arguments/extent.h"
+#include "pg/sql/arguments/extent_arguments.h"
 #include "pg/sql/arguments/interpolation.h"
 #include "pg/sql/arguments/word.h"
 #include "pg/sql/postgis/geometry_place.h"

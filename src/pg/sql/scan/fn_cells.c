@@ -9,7 +9,7 @@
 
 #include "abacus/windows.h"
 #include "pg/base/sql_function.h"
-#include "pg/sql/arguments/extent.h"
+#include "pg/sql/arguments/extent_arguments.h"
 #include "pg/sql/arguments/window.h"
 #include "pg/sql/rows/result.h"
 #include "pg/sql/rows/set.h"

@@ -10,7 +10,7 @@
 #include "abacus/windows.h"
 #include "pg/base/settings.h"
 #include "pg/base/sql_function.h"
-#include "pg/sql/arguments/extent.h"
+#include "pg/sql/arguments/extent_arguments.h"
 #include "pg/sql/arguments/window.h"
 #include "pg/sql/constrain/fixed_edges.h"
 #include "pg/sql/rows/faces.h"

@@ -12,7 +12,7 @@
 #include "pg/base/settings.h"
 #include "pg/base/sql_function.h"
 #include "pg/mesh/reader.h"
-#include "pg/sql/arguments/extent.h"
+#include "pg/sql/arguments/extent_arguments.h"
 #include "pg/sql/arguments/window.h"
 #include "pg/sql/rows/answers.h"
 

@@ -12,7 +12,7 @@
 #include "abacus/raster.h"
 #include "pg/base/settings.h"
 #include "pg/base/sql_function.h"
-#include "pg/sql/arguments/extent.h"
+#include "pg/sql/arguments/extent_arguments.h"
 #include "pg/sql/arguments/interpolation.h"
 #include "pg/sql/arguments/line.h"
 #include "pg/sql/arguments/units.h"

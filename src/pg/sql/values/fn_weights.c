@@ -9,7 +9,7 @@
 #include "pg/base/sql_function.h"
 #include "pg/host/guard.h"
 #include "pg/mesh/mesh_cache.h"
-#include "pg/sql/arguments/extent.h"
+#include "pg/sql/arguments/extent_arguments.h"
 #include "pg/sql/arguments/interpolation.h"
 #include "pg/sql/arguments/place.h"
 #include "pg/sql/arguments/places.h"

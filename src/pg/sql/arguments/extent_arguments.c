@@ -1,5 +1,5 @@
 /*
- * extent.c: the arguments that say which simplices of a mesh count: max_edge and within.
+ * extent_arguments.c: the arguments that say which simplices of a mesh count: max_edge and within.
  */
 #include "postgres.h"
 
@@ -12,7 +12,7 @@
 #include "utils/memutils.h"
 
 #include "pg/mesh/regions_table.h"
-#include "pg/sql/arguments/extent.h"
+#include "pg/sql/arguments/extent_arguments.h"
 
 /* The longest edge to return, or that simplices may have; 0 if any length is allowed. */
 double

@@ -1,5 +1,5 @@
 /*
- * extent.h: the arguments that say which simplices of a mesh count: max_edge and within.
+ * extent_arguments.h: the arguments that say which simplices of a mesh count: max_edge and within.
  */
 #ifndef ABACUS_EXTENT_ARGUMENTS_H
 #define ABACUS_EXTENT_ARGUMENTS_H
