@@ -299,7 +299,7 @@ class Import(unittest.TestCase):
             numpy.testing.assert_array_equal(found.labels, list(labels.values()))
             self.assertEqual((found.markers.tolist(), found.ids.tolist()), (markers, [1, 2, 3, 4]))
             self.assertIn(said, "; ".join(found.notes))
-        self.refused("c.vtu", grid(("Int64", "marker", "0 0 3000000000 1")), "more than 32 bits")
+        self.refused("c.vtu", grid(("Int64", "marker", "0 0 3000000000 1")), "does not fit 32 bits")
         self.refused("c.vtu", grid(("Int32", "marker", "0 0\n 1 x")), "line 2: x is not a whole number")
         whole = grid(ids="1 2 3 9007199254740993").split("<UnstructuredGrid>")[1].split("</UnstructuredGrid>")[0]
         other = whole.replace("1 2 3 9007199254740993", "1 2 33 9007199254740992")
