@@ -3,6 +3,7 @@
 #include "geometry/ordered.hpp"
 #include "traverse/straight.hpp"
 
+#include <algorithm>
 #include <bit>
 
 namespace abacus {
@@ -21,8 +22,8 @@ void EdgeHeirs::add(const Point<2> &a, const Point<2> &b, double marker) {
 bool EdgeHeirs::walk(const Point<2> &from, const Point<2> &to, const Legacy &legacy) {
     Cache<2> &cache = mesh_.cache();
     const Handle first = mesh_.locate(from, cache.domain().code(from), mesh_.any_recent());
-    if (cache.simplex(first).is_ghost()) return false;
     std::optional<Point<2>> at = pass_through(first, from, to, legacy);
+    if (!at && cache.simplex(first).is_ghost()) return false;
     while (at && is_same_way(to, from, *at)) {
         const Way way = straight_on(cache, vertex_at(mesh_, *at), to);
         if (way.triangle == no_handle) break; // it leaves the hull
@@ -41,9 +42,12 @@ std::optional<Point<2>> EdgeHeirs::pass_through(Handle h, const Point<2> &from, 
                                                 const Legacy &legacy) {
     Cache<2> &cache = mesh_.cache();
     const auto &vertex = cache.simplex(h).vertex;
-    for (int i = 0; i < 3; ++i) {
-        if (cache.point(vertex[i]) == from) return from;
-        const Point<2> &v = cache.point(vertex[(i + 1) % 3]), &w = cache.point(vertex[(i + 2) % 3]);
+    for (int i = 0; i < 3; ++i) { // a ghost has an edge of the hull
+        if (vertex[i] != infinite_vertex && cache.point(vertex[i]) == from) return from;
+        const VertexIndex a = vertex[(i + 1) % 3], b = vertex[(i + 2) % 3];
+        if (a == infinite_vertex || b == infinite_vertex) continue;
+        const Point<2> &v = cache.point(a), &w = cache.point(b);
+        if (!(std::min(v, w) < from && from < std::max(v, w))) continue;
         if (orientation(v, w, from) != 0 || orientation(v, w, to) != 0) continue;
         if (cache.is_fixed(make_link(h, i))) note(v, w, legacy);
         return is_same_way(from, to, v) ? v : w;

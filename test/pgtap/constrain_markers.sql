@@ -39,6 +39,16 @@ SELECT abacus_insert('shore', 'VALUES (20, 300, 0)');
 SELECT is(pg_temp.marked(), NULL, 'the parts of a free edge inherit none');
 SELECT is((SELECT count(*) FROM abacus_check('shore')), 0::bigint, 'both sides agree');
 
+-- edges of the hull
+DROP TABLE shore CASCADE;
+SELECT abacus_triangulate('shore', 'VALUES (1, 0, 0), (2, 1000, 0), (3, 1000, 700), (4, 0, 700), (5, 480, 350)');
+SELECT abacus_constrain('shore', 'VALUES (10, 1, 1), (10, 2, 2), (10, 3, 3), (10, 4, 4), (10, 5, 1)');
+SELECT pg_temp.mark(a, b, 7) FROM (VALUES (1, 2), (2, 3), (3, 4), (4, 1)) AS e (a, b);
+SELECT abacus_insert('shore', 'VALUES (20, 300, 0), (21, 1000, 300), (22, 300, 700), (23, 0, 300), (24, 700, 0)');
+SELECT is(pg_temp.marked(), '1-20:7 1-23:7 2-21:7 2-24:7 3-21:7 3-22:7 4-22:7 4-23:7 20-24:7', 'points split edges of the hull');
+SELECT abacus_delete('shore', 'VALUES (20, 300, 0), (21, 1000, 300), (22, 300, 700), (23, 0, 300), (24, 700, 0)');
+SELECT is(pg_temp.marked(), '1-2:7 1-4:7 2-3:7 3-4:7', '... and go');
+
 -- what is left of an edge inherits, whichever part that is
 DROP TABLE shore CASCADE;
 CREATE TABLE bank (id int PRIMARY KEY, x float8, y float8);
