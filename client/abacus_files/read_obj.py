@@ -3,7 +3,7 @@ import numpy
 
 from .grid import Grid
 from .psql import Failed
-from .words import number, numbers, read_text
+from .words import numbers, read_text
 
 suffixes = (".obj",)
 UNREAD = {"vn": "normals", "vt": "places in textures"}
@@ -17,8 +17,8 @@ def kind_of(count):
 def place(n, word, count):
     """A corner's place from 0. OBJ counts from 1, and negative numbers back from the last vertex so far."""
     try:
-        corner = number(word.split("/", 1)[0], int)
-    except ValueError:
+        corner = int(numbers([word.split("/", 1)[0]], int, lambda _: n)[0])
+    except Failed:
         raise Failed(f"line {n}: {word} is not a corner") from None
     at = corner - 1 if corner > 0 else count + corner
     if corner == 0 or at < 0:

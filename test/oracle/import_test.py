@@ -179,7 +179,8 @@ class Import(unittest.TestCase):
         self.assert_mesh(found, [[0, 0], [4, 0], [0, 3], [4, 3]], CELLS)
         self.assertEqual(found.notes, ["left out: places in textures, normals"])
         for faces, said in (("f 1 2 0\n", "corner 0"), ("f 1 2 -4\n", "corner -4"), ("f 1 2 4\n", "corner 3, but there are 3 points"),
-                            ("f 1 2 3 1\n", "quad"), ("", "neither triangles"), ("f 1 2 x\n", "line 6: x is not a corner")):
+                            ("f 1 2 3 1\n", "quad"), ("", "neither triangles"), ("f 1 2 x\n", "line 6: x is not a corner"),
+                            ("f 1 2 99999999999999999999\n", "line 6: 99999999999999999999 is not a corner"), ("f 1 2 -99999999999999999999\n", "line 6: .* is not a corner")):
             self.refused("m.obj", head + faces, said)
 
     def test_off(self):
@@ -331,6 +332,11 @@ class Import(unittest.TestCase):
         spatial = f'<Grid GridType="Collection" CollectionType="Spatial"><Grid>{geometry}{triangles}</Grid><Grid>{right}{triangles}</Grid></Grid>'
         found = self.read(self.file("x.xdmf", file(spatial)))
         self.assertEqual((len(found.points), len(found.simplices)), (6, 4))
+        binary = file(f'<Grid Name="m">\n{geometry}\n{triangles}</Grid>')
+        for old, new, said in (('Dimensions="2 3"', 'Dimensions="99999999999 3"', "line 5: the DataItem has 6 numbers"), ('Dimensions="2 3"', 'Dimensions="4294967296 4294967296"', "line 5: the DataItem has 6"),
+                               ('Format="Binary"', 'Format="Binary" Seek="99999999999999999999"', "line 5: .* cannot be read"), ('Format="Binary"', 'Format="Binary" Seek="-1"', "line 5: .* cannot be read"),
+                               ("cells.bin", "no.bin", "line 5: .*no.bin cannot be read")):
+            self.refused("x.xdmf", binary.replace(old, new), said)
         whole = file(f'<Grid Name="m">\n{geometry}\n{mixed}{tags}</Grid>')
         for old, new, said in (("4 1 3 2<", "4 1 3 9<", "line 5: a triangle names a point"), ("4 1 3 2<", "70 1 3 2<", "line 5: the mixed topology"), ("0 3 4 3", "0 3 4", "line 3: the DataItem has 7"),
                                ("5 77 6", "5 7.7 6", "line 5: 7.7 is not a whole number"), ("</Grid>", "", "is not XML, or is cut off"), ("Mixed", "Odd", "line 5: cells Odd"),
