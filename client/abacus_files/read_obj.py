@@ -28,7 +28,9 @@ def place(n, word, count):
 
 def read(path):
     vertices, lines, faces, corners, notes, left = [], [], {}, {}, [], {}
-    for n, line in enumerate(read_text(path).replace("\\\n", " ").split("\n"), 1):
+    n, after = 0, 1
+    for line in read_text(path).replace("\\\n", "\r").split("\n"):  # no text has a \r of its own
+        n, after = after, after + 1 + line.count("\r")
         words = line.split("#", 1)[0].split()
         if not words:
             continue

@@ -180,6 +180,7 @@ class Import(unittest.TestCase):
         self.assertEqual(found.notes, ["left out: places in textures, normals"])
         for faces, said in (("f 1 2 0\n", "corner 0"), ("f 1 2 -4\n", "corner -4"), ("f 1 2 4\n", "corner 3, but there are 3 points"),
                             ("f 1 2 3 1\n", "quad"), ("", "neither triangles"), ("f 1 2 x\n", "line 6: x is not a corner"),
+                            ("f 1 \\\n2 \\\n3\nf 1 2 x\n", "line 9: x is not a corner"),
                             ("f 1 2 99999999999999999999\n", "line 6: 99999999999999999999 is not a corner"), ("f 1 2 -99999999999999999999\n", "line 6: .* is not a corner")):
             self.refused("m.obj", head + faces, said)
 
