@@ -410,6 +410,10 @@ class Import(unittest.TestCase):
         found = self.read(self.file("g.msh", second))
         self.assertEqual((found.simplices.tolist(), found.notes), ([[0, 1, 2]], ["only the corners are taken of cells of higher order: triangle6",
                                                                                  "3 points that belong to no triangle are left out"]))
+        for tag in ("1.5", "nan", "1e0"):
+            self.refused("g.msh", second.replace("\n1 1 0 0\n", f"\n{tag} 1 0 0\n"), f"line 7: {tag} is not a whole number")
+        great = second.replace("\n4 1 1 0\n5 2", "\n9007199254740992 1 1 0\n9007199254740993 2").replace(" 4 5\n", " 9007199254740992 9007199254740993\n")
+        self.assertEqual(self.read(self.file("g.msh", great)).ids.tolist(), [0, 1, 2, 3, 9007199254740992, 9007199254740993])
 
     def test_of_meshio_counts(self):
         """Formats that meshio reads are compared with their own counts."""
