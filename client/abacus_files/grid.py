@@ -54,8 +54,10 @@ class Grid:
             if len(values) != len(self.cells[kind]):
                 raise Failed(f"has {len(self.cells[kind])} cells ({kind}), but {len(values)} numbers for them")
         for kind, values in self.markers.items():
-            if numpy.any(numpy.abs(numpy.asarray(values, dtype=float)) >= 1 << 31):
-                raise Failed(f"a marker of a cell ({kind}) has more than 32 bits")
+            markers = numpy.asarray(values, dtype=float)
+            wrong = (markers < -(1 << 31)) | (markers >= 1 << 31)
+            if wrong.any():
+                raise Failed(f"{self.where(kind, int(numpy.flatnonzero(wrong)[0]))}a marker of a cell ({kind}) does not fit 32 bits")
         if self.ids is not None and len(self.ids) != len(points):
             raise Failed(f"has {len(points)} points, but {len(self.ids)} ids")
         self.take_corners()

@@ -4,7 +4,7 @@ import re
 import numpy
 
 from .psql import Failed
-from .words import Words
+from .words import Words, numbers
 
 
 class Section:
@@ -43,8 +43,11 @@ class TextSection(Section):
 
     def rows(self, count, *types):
         """A table of several types as columns."""
-        table = self.numbers("f8", count * len(types)).reshape(count, len(types))
-        return [table[:, n] if type == "f8" else table[:, n].astype("i8") for n, type in enumerate(types)]
+        words, width = self.begin(), len(types)
+        begin = words.at
+        taken = words.take(count * width, f"numbers of ${self.name}")
+        return [numbers(taken[n::width], float if type == "f8" else int, lambda row, n=n: words.line(begin + row * width + n))
+                for n, type in enumerate(types)]
 
     def first(self):
         """The number that begins a section of format 2, in text either way."""

@@ -3,7 +3,7 @@ import numpy
 
 from .grid import Grid
 from .psql import Failed
-from .words import number, numbers, read_text
+from .words import numbers, read_text
 
 suffixes = (".obj",)
 UNREAD = {"vn": "normals", "vt": "places in textures"}
@@ -17,8 +17,8 @@ def kind_of(count):
 def place(n, word, count):
     """A corner's place from 0. OBJ counts from 1, and negative numbers back from the last vertex so far."""
     try:
-        corner = number(word.split("/", 1)[0], int)
-    except ValueError:
+        corner = int(numbers([word.split("/", 1)[0]], int, lambda _: n)[0])
+    except Failed:
         raise Failed(f"line {n}: {word} is not a corner") from None
     at = corner - 1 if corner > 0 else count + corner
     if corner == 0 or at < 0:
@@ -28,7 +28,9 @@ def place(n, word, count):
 
 def read(path):
     vertices, lines, faces, corners, notes, left = [], [], {}, {}, [], {}
-    for n, line in enumerate(read_text(path).replace("\\\n", " ").split("\n"), 1):
+    n, after = 0, 1
+    for line in read_text(path).replace("\\\n", "\r").split("\n"):  # no text has a \r of its own
+        n, after = after, after + 1 + line.count("\r")
         words = line.split("#", 1)[0].split()
         if not words:
             continue

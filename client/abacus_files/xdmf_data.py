@@ -1,4 +1,5 @@
 """The numbers of a DataItem of XDMF: in text, in a binary file or in HDF5."""
+import math
 import os
 
 import numpy
@@ -38,7 +39,7 @@ class Data:
         if not shape or min(shape) < 0:
             raise Failed(f"{where}: the DataItem does not say its Dimensions")
         values = {"XML": self.in_text, "HDF": self.in_hdf, "BINARY": self.in_binary}.get(way, self.unknown)(item, where, type_)
-        if values.size != numpy.prod(shape):
+        if values.size != math.prod(shape):
             raise Failed(f"{where}: the DataItem has {values.size} numbers, but should have {' times '.join(map(str, shape))}")
         return values.reshape(shape)
 
@@ -53,9 +54,10 @@ class Data:
         order = {"big": ">", "little": "<"}.get(item.get("Endian", "Native").lower(), "=")
         path = os.path.join(self.folder, (item.text or "").strip())
         try:
-            count = int(numpy.prod([int(word) for word in item.get("Dimensions").split()]))
+            # a number has a byte at least
+            count = min(math.prod(int(word) for word in item.get("Dimensions").split()), os.path.getsize(path))
             return numpy.fromfile(path, type_.newbyteorder(order), count, offset=int(item.get("Seek", "0")))
-        except (OSError, ValueError) as error:
+        except (OSError, ValueError, OverflowError) as error:
             raise Failed(f"{where}: {path} cannot be read: {error}") from error
 
     def in_hdf(self, item, where, type_):

@@ -97,7 +97,7 @@ std::uint64_t Build<D>::update(Stage<D> &stage, std::span<const std::uint32_t> w
     std::uint64_t changed = 0;
     change(header, [&] {
         const std::uint64_t points = stage.points();
-        const bool come = work_.has_waiting();
+        const bool keeps = !work_.has_waiting() && labels_.follows_all();
         inserting_.insert_waiting(0);
         Revision<D> revision(work_, which, exactly);
         abacus_facts ordered = header.facts; // which may have no domain, if it has no points
@@ -109,7 +109,10 @@ std::uint64_t Build<D>::update(Stage<D> &stage, std::span<const std::uint32_t> w
             const Point<D> p = record_point<D>(revision.missing()->data());
             std::copy(p.begin(), p.end(), missing.point);
         }
-        if (!come) labels_.keep_unless_held();
+        if (keeps) {
+            work_.core->cache.flush();
+            labels_.keep_all();
+        }
         return points;
     });
     return changed;

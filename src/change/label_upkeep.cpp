@@ -28,12 +28,6 @@ private:
 
 } // namespace
 
-template <int D> void LabelUpkeep<D>::keep_unless_held() {
-    if (stored_ == nullptr || holds_) return;
-    work_.core->cache.flush();
-    stored_->clear();
-}
-
 template <int D> void LabelUpkeep<D>::sweep() {
     abacus_census &census = work_.facts->census;
     if (work_.core->mesh.simplices() == 0) {

@@ -22,12 +22,12 @@ public:
     void follow() {
         if (stored_ != nullptr && !holds_) sweep();
     }
+    /// Whether no page has been stored yet that labels must follow.
+    bool follows_all() { return stored_ == nullptr || stored_->stretches().empty(); }
     /// The pages stored so far have the same simplices as before.
     void keep_all() {
         if (stored_ != nullptr) stored_->clear();
     }
-    /// The same, unless labels are held.
-    void keep_unless_held();
     /// Sorts labels and markers by the keys of the new domain; `from` is the old one.
     void rekey(const Domain<D> &from, std::size_t memory);
 

@@ -3,6 +3,7 @@
 #include "geometry/ordered.hpp"
 #include "traverse/straight.hpp"
 
+#include <algorithm>
 #include <bit>
 
 namespace abacus {
@@ -13,50 +14,78 @@ EdgeHeirs::EdgeHeirs(Delaunay<2> &mesh, std::size_t memory)
 void EdgeHeirs::add(const Point<2> &a, const Point<2> &b, double marker) {
     const Edge old = a < b ? Edge{a, b} : Edge{b, a};
     mesh_.cache().poll();
-    std::optional<Edge> edge = edge_through(old.from, old.to);
-    if (!edge) edge = edge_from(old.from, old.to);
-    while (edge) {
-        if (*edge != old) note(*edge, old, marker);
-        if (!(edge->to < old.to)) break;
-        edge = edge_from(edge->to, old.to);
-    }
+    if (mesh_.simplices() > 0 && !walk(old.from, old.to, {old, marker}))
+        walk(old.to, old.from, {old, marker});
     mesh_.finish(mesh_.anywhere);
 }
 
-std::optional<EdgeHeirs::Edge> EdgeHeirs::edge_through(const Point<2> &a, const Point<2> &b) {
+bool EdgeHeirs::walk(const Point<2> &from, const Point<2> &to, const Legacy &legacy) {
     Cache<2> &cache = mesh_.cache();
-    if (mesh_.simplices() == 0) return {};
-    const Handle h = mesh_.locate(a, cache.domain().code(a), mesh_.any_recent());
-    for (int i = 0; i < 3; ++i) {
-        const auto &vertex = cache.simplex(h).vertex;
-        const VertexIndex v = vertex[(i + 1) % 3], w = vertex[(i + 2) % 3];
-        if (v == infinite_vertex || w == infinite_vertex || !cache.is_fixed(make_link(h, i)))
+    const Handle first = mesh_.locate(from, cache.domain().code(from), mesh_.any_recent());
+    std::optional<Point<2>> at = pass_through(first, from, to, legacy);
+    if (!at && cache.simplex(first).is_ghost()) return false;
+    while (at && is_same_way(to, from, *at)) {
+        const Way way = straight_on(cache, vertex_at(mesh_, *at), to);
+        if (way.triangle == no_handle) break; // it leaves the hull
+        if (!way.is_edge) {
+            at = vertex_ahead(way.triangle, *at, to);
             continue;
-        const auto [from, to] = std::minmax(cache.point(v), cache.point(w));
-        const Edge edge{from, to};
-        if (edge.from < a && a < edge.to && orientation(edge.from, edge.to, a) == 0 &&
-            orientation(edge.from, edge.to, b) == 0)
-            return edge;
+        }
+        const Point<2> end = cache.point(cache.simplex(way.triangle).vertex[(way.corner + 1) % 3]);
+        if (cache.is_fixed(make_link(way.triangle, (way.corner + 2) % 3))) note(*at, end, legacy);
+        at = end;
+    }
+    return true;
+}
+
+std::optional<Point<2>> EdgeHeirs::pass_through(Handle h, const Point<2> &from, const Point<2> &to,
+                                                const Legacy &legacy) {
+    Cache<2> &cache = mesh_.cache();
+    const auto &vertex = cache.simplex(h).vertex;
+    for (int i = 0; i < 3; ++i) { // a ghost has an edge of the hull
+        if (vertex[i] != infinite_vertex && cache.point(vertex[i]) == from) return from;
+        const VertexIndex a = vertex[(i + 1) % 3], b = vertex[(i + 2) % 3];
+        if (a == infinite_vertex || b == infinite_vertex) continue;
+        const Point<2> &v = cache.point(a), &w = cache.point(b);
+        if (!(std::min(v, w) < from && from < std::max(v, w))) continue;
+        if (orientation(v, w, from) != 0 || orientation(v, w, to) != 0) continue;
+        if (cache.is_fixed(make_link(h, i))) note(v, w, legacy);
+        return is_same_way(from, to, v) ? v : w;
+    }
+    return vertex_ahead(h, from, to);
+}
+
+std::optional<Point<2>> EdgeHeirs::vertex_ahead(Handle h, const Point<2> &from,
+                                                const Point<2> &to) {
+    Cache<2> &cache = mesh_.cache();
+    for (std::size_t crossed = 1; !cache.simplex(h).is_ghost(); ++crossed) {
+        const auto &vertex = cache.simplex(h).vertex;
+        std::array<int, 3> side;
+        for (int i = 0; i < 3; ++i) {
+            const Point<2> &v = cache.point(vertex[i]);
+            side[i] = orientation(from, to, v);
+            if (side[i] == 0 && is_same_way(from, to, v)) return v;
+        }
+        int out = 0; // the edge from a corner right of the way to one left of it
+        while (out < 3 && !(side[(out + 1) % 3] < 0 && side[(out + 2) % 3] > 0)) ++out;
+        if (out == 3 || orientation(cache.point(vertex[(out + 1) % 3]),
+                                    cache.point(vertex[(out + 2) % 3]), to) >= 0)
+            break; // the way ends before it
+        h = link_simplex(cache.cross(h, out));
+        if (crossed % 4096 == 0) cache.poll();
     }
     return {};
 }
 
-std::optional<EdgeHeirs::Edge> EdgeHeirs::edge_from(const Point<2> &at, const Point<2> &b) {
-    Cache<2> &cache = mesh_.cache();
-    const Link corner = vertex_at(mesh_, at);
-    if (corner == unset) return {};
-    const Way way = straight_on(cache, corner, b);
-    if (!way.is_edge || !cache.is_fixed(make_link(way.triangle, (way.corner + 2) % 3))) return {};
-    return Edge{at, cache.point(cache.simplex(way.triangle).vertex[(way.corner + 1) % 3])};
-}
-
-void EdgeHeirs::note(const Edge &heir, const Edge &old, double marker) {
+void EdgeHeirs::note(const Point<2> &v, const Point<2> &w, const Legacy &legacy) {
+    const Edge heir = v < w ? Edge{v, w} : Edge{w, v}, &old = legacy.old;
+    if (heir == old) return;
     std::uint64_t *const record = sort_.add();
     put_ordered(record, heir.from);
     put_ordered(record + 2, heir.to);
     put_ordered(record + edge_words, old.from);
     put_ordered(record + edge_words + 2, old.to);
-    record[2 * edge_words] = std::bit_cast<std::uint64_t>(marker);
+    record[2 * edge_words] = std::bit_cast<std::uint64_t>(legacy.marker);
 }
 
 void EdgeHeirs::each(const std::function<void(const Point<2> &, const Point<2> &, double)> &visit) {

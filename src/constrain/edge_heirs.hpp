@@ -1,8 +1,9 @@
 // The fixed edges that have taken the place of others on the same line, and inherit their markers:
-// the parts of an edge that a point has split, or the edge that was joined again where a point has
-// gone.
+// the parts of an edge that a point has split, the edge that was joined again where a point has
+// gone, or what is left where a line has become shorter.
 //
-// An edge inherits a marker if edges with this marker have covered all of it.
+// An edge inherits a marker if edges with this marker have covered all of it. So the way along each
+// of these is followed through the mesh, over edges that are not fixed and across triangles, too.
 #pragma once
 
 #include "delaunay/delaunay.hpp"
@@ -32,11 +33,21 @@ private:
     // of a record: the heir, the edge that it inherits from, and the marker
     static constexpr std::size_t edge_words = 4, key_words = 2 * edge_words + 1, words = key_words;
 
-    /// The fixed edge inside which a lies on the way to b, in this direction.
-    std::optional<Edge> edge_through(const Point<2> &a, const Point<2> &b);
-    /// The fixed edge from a vertex on the way to b.
-    std::optional<Edge> edge_from(const Point<2> &at, const Point<2> &b);
-    void note(const Edge &heir, const Edge &old, double marker);
+    struct Legacy {
+        Edge old;
+        double marker;
+    };
+
+    /// Notes the fixed edges on the way; false if it begins outside the mesh.
+    bool walk(const Point<2> &from, const Point<2> &to, const Legacy &legacy);
+    /// The first vertex on the way, which begins in the closure of a triangle: the beginning
+    /// itself, or the end of an edge that it lies inside, which is noted if it is fixed.
+    std::optional<Point<2>> pass_through(Handle h, const Point<2> &from, const Point<2> &to,
+                                         const Legacy &legacy);
+    /// The next vertex on the way across triangles, if it has one before it ends.
+    std::optional<Point<2>> vertex_ahead(Handle h, const Point<2> &from, const Point<2> &to);
+    /// That the edge between two vertices inherits.
+    void note(const Point<2> &v, const Point<2> &w, const Legacy &legacy);
 
     Delaunay<2> &mesh_;
     RecordSort sort_;

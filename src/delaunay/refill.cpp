@@ -79,11 +79,16 @@ void Refill::refuse_crossing(const Star<2> &star, LineSource &lines) {
     for (const Point<2> &end : ends)
         if (const auto line = over.find(p, end)) through.push_back(*line);
     sort_unique(through);
-    if (through.size() < 2) throw_corrupted("A fixed edge belongs to no line.");
-    throw Error(ABACUS_ERROR_STATE,
-                "point " + std::to_string(id) + " cannot be deleted: " + in_words(through) +
-                    " of the mesh would cross there",
-                {}, "Remove one of the lines with abacus_unconstrain() first.");
+    // A line may pass through twice, as a loop does.
+    if (through.empty() || spokes_.size() < 4) throw_corrupted("A fixed edge belongs to no line.");
+    const bool is_one = through.size() == 1;
+    throw Error(
+        ABACUS_ERROR_STATE,
+        "point " + std::to_string(id) + " cannot be deleted: " + in_words(through) +
+            (is_one ? " of the mesh would cross itself there" : " of the mesh would cross there"),
+        {},
+        is_one ? "Remove the line with abacus_unconstrain() first."
+               : "Remove one of the lines with abacus_unconstrain() first.");
 }
 
 void Refill::take(const Star<2> &star, std::size_t i) {

@@ -23,7 +23,7 @@ from abacus_files.progress import Progress, span  # noqa: E402
 PLANE = """SELECT abacus_load('carried_plane',
     'VALUES (1, 0, 0, 0, 7), (2, 2, 0, 0, 7), (4, 0, 2, 0, NULL), (5, 2, 2, 0, 7), (12, 2, 0, 1, 7), (3, 4, 0, 1, 7), (6, 4, 2, 1, 7), (15, 2, 2, 1, 7.5)',
     'VALUES (1, 2, 5, 3, NULL), (1, 5, 4, 4, 0.5), (12, 3, 6, NULL, NULL), (12, 6, 15, 5, -1e300)', '{slip,"a b"}', labels => '{material,"wet ä"}',
-    facets => 'VALUES (2, 5, 7), (12, 15, 8), (1, 2, -3), (1, 5, 2147483647)', split_nodes => true)"""
+    facets => 'VALUES (2, 5, 7), (12, 15, 8), (1, 2, -2147483648), (1, 5, 2147483647)', split_nodes => true)"""
 SPACE = """SELECT abacus_load('carried_space', $$VALUES (1, 0, 0, -1, 0), (2, 0, 0, 0, 0), (3, 1, 0, 0, NULL), (4, 0, 1, 0, 0),
     (12, 0, 0, 0, 1), (13, 1, 0, 0, 1), (14, 0, 1, 0, 1), (9007199254740993, 0.1, 0.1, 1, 1)$$,
     'VALUES (1, 2, 3, 4, 3, NULL), (12, 13, 14, 9007199254740993, NULL, 0.5)', '{slip}', labels => '{material,marker}',

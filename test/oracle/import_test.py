@@ -179,7 +179,9 @@ class Import(unittest.TestCase):
         self.assert_mesh(found, [[0, 0], [4, 0], [0, 3], [4, 3]], CELLS)
         self.assertEqual(found.notes, ["left out: places in textures, normals"])
         for faces, said in (("f 1 2 0\n", "corner 0"), ("f 1 2 -4\n", "corner -4"), ("f 1 2 4\n", "corner 3, but there are 3 points"),
-                            ("f 1 2 3 1\n", "quad"), ("", "neither triangles"), ("f 1 2 x\n", "line 6: x is not a corner")):
+                            ("f 1 2 3 1\n", "quad"), ("", "neither triangles"), ("f 1 2 x\n", "line 6: x is not a corner"),
+                            ("f 1 \\\n2 \\\n3\nf 1 2 x\n", "line 9: x is not a corner"),
+                            ("f 1 2 99999999999999999999\n", "line 6: 99999999999999999999 is not a corner"), ("f 1 2 -99999999999999999999\n", "line 6: .* is not a corner")):
             self.refused("m.obj", head + faces, said)
 
     def test_off(self):
@@ -299,7 +301,7 @@ class Import(unittest.TestCase):
             numpy.testing.assert_array_equal(found.labels, list(labels.values()))
             self.assertEqual((found.markers.tolist(), found.ids.tolist()), (markers, [1, 2, 3, 4]))
             self.assertIn(said, "; ".join(found.notes))
-        self.refused("c.vtu", grid(("Int64", "marker", "0 0 3000000000 1")), "more than 32 bits")
+        self.refused("c.vtu", grid(("Int64", "marker", "0 0 3000000000 1")), "does not fit 32 bits")
         self.refused("c.vtu", grid(("Int32", "marker", "0 0\n 1 x")), "line 2: x is not a whole number")
         whole = grid(ids="1 2 3 9007199254740993").split("<UnstructuredGrid>")[1].split("</UnstructuredGrid>")[0]
         other = whole.replace("1 2 3 9007199254740993", "1 2 33 9007199254740992")
@@ -331,6 +333,11 @@ class Import(unittest.TestCase):
         spatial = f'<Grid GridType="Collection" CollectionType="Spatial"><Grid>{geometry}{triangles}</Grid><Grid>{right}{triangles}</Grid></Grid>'
         found = self.read(self.file("x.xdmf", file(spatial)))
         self.assertEqual((len(found.points), len(found.simplices)), (6, 4))
+        binary = file(f'<Grid Name="m">\n{geometry}\n{triangles}</Grid>')
+        for old, new, said in (('Dimensions="2 3"', 'Dimensions="99999999999 3"', "line 5: the DataItem has 6 numbers"), ('Dimensions="2 3"', 'Dimensions="4294967296 4294967296"', "line 5: the DataItem has 6"),
+                               ('Format="Binary"', 'Format="Binary" Seek="99999999999999999999"', "line 5: .* cannot be read"), ('Format="Binary"', 'Format="Binary" Seek="-1"', "line 5: .* cannot be read"),
+                               ("cells.bin", "no.bin", "line 5: .*no.bin cannot be read")):
+            self.refused("x.xdmf", binary.replace(old, new), said)
         whole = file(f'<Grid Name="m">\n{geometry}\n{mixed}{tags}</Grid>')
         for old, new, said in (("4 1 3 2<", "4 1 3 9<", "line 5: a triangle names a point"), ("4 1 3 2<", "70 1 3 2<", "line 5: the mixed topology"), ("0 3 4 3", "0 3 4", "line 3: the DataItem has 7"),
                                ("5 77 6", "5 7.7 6", "line 5: 7.7 is not a whole number"), ("</Grid>", "", "is not XML, or is cut off"), ("Mixed", "Odd", "line 5: cells Odd"),
@@ -403,6 +410,10 @@ class Import(unittest.TestCase):
         found = self.read(self.file("g.msh", second))
         self.assertEqual((found.simplices.tolist(), found.notes), ([[0, 1, 2]], ["only the corners are taken of cells of higher order: triangle6",
                                                                                  "3 points that belong to no triangle are left out"]))
+        for tag in ("1.5", "nan", "1e0"):
+            self.refused("g.msh", second.replace("\n1 1 0 0\n", f"\n{tag} 1 0 0\n"), f"line 7: {tag} is not a whole number")
+        great = second.replace("\n4 1 1 0\n5 2", "\n9007199254740992 1 1 0\n9007199254740993 2").replace(" 4 5\n", " 9007199254740992 9007199254740993\n")
+        self.assertEqual(self.read(self.file("g.msh", great)).ids.tolist(), [0, 1, 2, 3, 9007199254740992, 9007199254740993])
 
     def test_of_meshio_counts(self):
         """Formats that meshio reads are compared with their own counts."""

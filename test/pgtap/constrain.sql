@@ -127,6 +127,18 @@ SELECT is(abacus_constrain('wide', 'VALUES (2, 1, NULL, 0, 10), (2, 2, NULL, 0, 
 SELECT results_eq($$ SELECT state, detail FROM pg_temp.parts($x$ SELECT abacus_constrain('wide', 'VALUES (2, 1, NULL, 5, 0), (2, 2, NULL, 5, 20)', existing => 'replace') $x$) $$,
     $$ VALUES ('22023', 'Line 2 after position 1 crosses line 3 after position 1 at (5, 5).') $$, 'a line that replaces another crosses');
 SELECT is((SELECT count(*) FROM abacus_crossings('wide', 'VALUES (1, 1, 1), (1, 2, 4), (3, 1, 2), (3, 2, 3)')), 0::bigint, 'the lines of the query instead of those with the same ids');
+-- a vertex where lines pass through one another cannot go, also if it is one line that does
+CREATE TEMP TABLE knot AS SELECT i AS id, i % 5 AS x, i / 5 AS y FROM generate_series(0, 24) AS i;
+SELECT abacus_triangulate('knot_mesh', 'TABLE knot');
+SELECT abacus_constrain('knot_mesh', 'VALUES (3, 1, 9), (3, 2, 15), (3, 3, 17), (3, 4, 2)');
+SELECT throws_ok($$ SELECT abacus_delete('knot_mesh', 'VALUES (12, 2, 2)') $$, '55000', 'point 12 cannot be deleted: line 3 of the mesh would cross itself there', 'a loop');
+SELECT throws_ok($$ SELECT abacus_delete('knot_mesh', 'SELECT id, x, y FROM knot WHERE id IN (6, 7, 8, 11, 12)') $$, '55000', 'point 12 cannot be deleted: line 3 of the mesh would cross itself there', 'with others');
+SELECT abacus_constrain('knot_mesh', 'VALUES (4, 1, 10), (4, 2, 14)');
+SELECT throws_ok($$ SELECT abacus_delete('knot_mesh', 'VALUES (12, 2, 2)') $$, '55000', 'point 12 cannot be deleted: lines 3, 4 of the mesh would cross there', 'and another line');
+SELECT abacus_constrain('knot_mesh', 'VALUES (3, 1, 9), (3, 2, 15)', existing => 'replace');
+SELECT abacus_unconstrain('knot_mesh', 'VALUES (4)');
+SELECT is(abacus_delete('knot_mesh', 'VALUES (12, 2, 2)'), 1::bigint, 'without the loop it goes');
+SELECT is_empty($$ SELECT * FROM abacus_check('knot_mesh') $$, 'sound');
 -- points and lines in one call
 SELECT is(abacus_triangulate('with_lines', 'TABLE point', lines => 'VALUES (1, 1, 0), (1, 2, 22)'), abacus_triangulate('without', 'TABLE point'), 'points and lines in one call');
 SELECT is((SELECT count(*) FROM abacus_edges('with_lines', fixed => true)), 1::bigint, 'which fixes edges');

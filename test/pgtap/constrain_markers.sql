@@ -39,6 +39,46 @@ SELECT abacus_insert('shore', 'VALUES (20, 300, 0)');
 SELECT is(pg_temp.marked(), NULL, 'the parts of a free edge inherit none');
 SELECT is((SELECT count(*) FROM abacus_check('shore')), 0::bigint, 'both sides agree');
 
+-- edges of the hull
+DROP TABLE shore CASCADE;
+SELECT abacus_triangulate('shore', 'VALUES (1, 0, 0), (2, 1000, 0), (3, 1000, 700), (4, 0, 700), (5, 480, 350)');
+SELECT abacus_constrain('shore', 'VALUES (10, 1, 1), (10, 2, 2), (10, 3, 3), (10, 4, 4), (10, 5, 1)');
+SELECT pg_temp.mark(a, b, 7) FROM (VALUES (1, 2), (2, 3), (3, 4), (4, 1)) AS e (a, b);
+SELECT abacus_insert('shore', 'VALUES (20, 300, 0), (21, 1000, 300), (22, 300, 700), (23, 0, 300), (24, 700, 0)');
+SELECT is(pg_temp.marked(), '1-20:7 1-23:7 2-21:7 2-24:7 3-21:7 3-22:7 4-22:7 4-23:7 20-24:7', 'points split edges of the hull');
+SELECT abacus_delete('shore', 'VALUES (20, 300, 0), (21, 1000, 300), (22, 300, 700), (23, 0, 300), (24, 700, 0)');
+SELECT is(pg_temp.marked(), '1-2:7 1-4:7 2-3:7 3-4:7', '... and go');
+
+-- what is left of an edge inherits, whichever part that is
+DROP TABLE shore CASCADE;
+CREATE TABLE bank (id int PRIMARY KEY, x float8, y float8);
+INSERT INTO bank VALUES (1, 0, 0), (2, 1000, 0), (3, 500, 700), (4, 400, -600), (5, -300, -500), (6, 1300, 800), (7, -200, 900), (8, 1200, -300), (9, 500, 2), (10, 501, -2);
+SELECT abacus_triangulate('shore', 'TABLE bank');
+CREATE FUNCTION pg_temp.left_over(a float8, b float8) RETURNS text LANGUAGE plpgsql AS $$
+BEGIN
+    PERFORM abacus_constrain('shore', 'VALUES (10, 1, 1), (10, 2, 2)', existing => 'replace');
+    PERFORM pg_temp.mark(1, 2, 7);
+    PERFORM abacus_constrain('shore', format('VALUES (10, 1, NULL::bigint, %s, 0), (10, 2, NULL, %s, 0)', a, b), existing => 'replace');
+    RETURN (SELECT string_agg(format('%s-%s:%s', p.x, q.x, marker), ' ') FROM abacus_facets('shore') AS f JOIN abacus_vertices('shore') AS p ON p.id = v0 JOIN abacus_vertices('shore') AS q ON q.id = v1)
+        || (SELECT string_agg(abacus_delete('shore', format('VALUES (%s, %s, 0)', id, x))::text, '') FROM abacus_vertices('shore') WHERE id > 10 AND abacus_unconstrain('shore', 'VALUES (10)') >= 0);
+END $$;
+SELECT is(pg_temp.left_over(0, 300), '0-300:71', 'the line becomes shorter at its greater end');
+SELECT is(pg_temp.left_over(300, 1000), '300-1000:71', '... at its lesser end');
+SELECT is(pg_temp.left_over(300, 700), '300-700:711', '... at both');
+SELECT abacus_constrain('shore', 'VALUES (10, 1, 1), (10, 2, 2)');
+SELECT pg_temp.mark(1, 2, 7);
+CREATE TABLE dike (line int, "position" int, point int);
+INSERT INTO dike VALUES (10, 1, 1), (10, 2, 2);
+SELECT abacus_track('shore', 'bank');
+SELECT abacus_track_lines('shore', 'dike');
+UPDATE bank SET x = x * 0.25 + 100 WHERE id <= 2;
+SET CONSTRAINTS ALL IMMEDIATE;
+SELECT is(pg_temp.marked(), '1-2:7', 'both ends move along the line');
+UPDATE bank SET x = 400 WHERE id = 2;
+SELECT is(pg_temp.marked(), NULL, 'a longer edge was not covered');
+SELECT is((SELECT count(*) FROM abacus_check('shore')), 0::bigint, 'both sides agree');
+SET CONSTRAINTS ALL DEFERRED;
+
 -- Lines in all directions with points on them that come and go: a fixed edge has a marker if one marker has covered it.
 SELECT setseed(0.25);
 CREATE TABLE post AS SELECT row_number() OVER (ORDER BY i, random()) AS id, 0::float8 + 64 * (i % 6) AS x, 0::float8 + 64 * (i / 6) AS y FROM generate_series(0, 35) AS i;

@@ -128,6 +128,27 @@ change_swap_stages(Change *change)
 }
 
 /*
+ * From here until it is settled, everything is one change for labels and markers, however many steps
+ * it takes.
+ */
+static void
+hold(Change *change)
+{
+	const abacus_census *census = &change->writer.header->facts.census;
+
+	change->holds = census->labelled > 0 || census->marked > 0;
+	if (change->holds)
+		host_run(change->writer.host, abacus_build_hold, change->build);
+}
+
+static void
+settle(Change *change)
+{
+	if (change->holds)
+		host_run(change->writer.host, abacus_build_settle, change->build, change->writer.header);
+}
+
+/*
  * Opens the triangulation for changes, unless it is open. If the coming points choose the domain,
  * the header must already have it.
  */
@@ -140,8 +161,7 @@ change_open_build(Change *change)
 		return;
 	host_run(host, abacus_build_open, &host->table, &change->writer.header->facts,
 			 setting_cache_bytes(), &change->build);
-	if (change->holds)
-		host_run(host, abacus_build_hold, change->build);
+	hold(change);
 	if (change->returns)
 		host_run(host, abacus_build_log, change->build, setting_query_sort_bytes());
 	if (change->writer.header->facts.census.lines > 0)
@@ -149,34 +169,25 @@ change_open_build(Change *change)
 }
 
 /*
- * From here until it is settled, everything is one change for labels and markers. To be called
- * before the first change.
- */
-void
-change_hold(Change *change)
-{
-	change->holds = true;
-}
-
-void
-change_settle(Change *change)
-{
-	Host	   *host = change->writer.host;
-
-	if (change->build != NULL)
-		host_run(host, abacus_build_settle, change->build, change->writer.header);
-}
-
-/*
  * From here on, queries of this session see the mesh as it has become; the change goes on. The core
- * keeps its cache, since the transaction keeps others from changing the mesh.
+ * keeps its cache, since the transaction keeps others from changing the mesh. Labels and markers
+ * that are held may be those of simplices that have gone; the header that is shown counts no more of
+ * them than there are simplices.
  */
 void
 change_show(Change *change)
 {
+	abacus_census *census = &change->writer.header->facts.census;
+	const uint64 labelled = census->labelled;
+	const uint64 marked = census->marked;
+
+	census->labelled = Min(labelled, census->simplices);
+	census->marked = Min(marked, census->simplices);
 	writer_store(&change->writer);
 	CommandCounterIncrement();
 	writer_continue(&change->writer);
+	census->labelled = labelled;
+	census->marked = marked;
 }
 
 /* Inserts the points of the stage. */
@@ -355,6 +366,7 @@ void
 change_end(Change *change)
 {
 	let_lines_wait(change);
+	settle(change);
 	notice_duplicates(&change->writer, change->duplicates, change->may_replace);
 	if (change->inserts)
 		notice_waiting(&change->writer);

@@ -21,7 +21,7 @@ typedef struct Change
 	uint64		duplicates;		/* of the mesh before the change */
 	bool		may_replace;	/* the user can choose 'replace' */
 	bool		inserts;
-	bool		holds;			/* labels and markers, until it is settled */
+	bool		holds;			/* labels and markers, until its end */
 	bool		returns;		/* which simplices it creates and removes */
 	bool		knows_lines;	/* no line names a point that it deletes, even while lines wait */
 	abacus_load *load;			/* a triangulation made elsewhere */
@@ -40,8 +40,6 @@ extern void change_read_gone(Change *change, Source *source, abacus_names names)
 extern void change_take_srid(Change *change, int32 srid);
 extern void change_swap_stages(Change *change);
 extern void change_open_build(Change *change);
-extern void change_hold(Change *change);
-extern void change_settle(Change *change);
 extern void change_show(Change *change);
 extern void change_insert(Change *change);
 extern uint64 change_delete(Change *change, bool exactly);

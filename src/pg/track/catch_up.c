@@ -84,22 +84,6 @@ change_points(const CatchUp *up)
 	}
 }
 
-/* Whether all points of the table have gone at some time. */
-static bool
-clears(const CatchUp *up)
-{
-	ListCell   *cell;
-
-	foreach(cell, up->behind)
-	{
-		const Pending *pending = lfirst(cell);
-
-		if (pending->kind == TRACKED_POINTS && pending->extent.all)
-			return true;
-	}
-	return false;
-}
-
 /* ---- Lines ------------------------------------------------------------------------ */
 
 static void
@@ -199,15 +183,10 @@ change_mesh(CatchUp *up, Oid mesh)
 		in_step_check_shape(change, pending->shape, pending->trigger);
 		in_step_check_srid(change, (int32) pending->srid);
 	}
-	/* of an emptied mesh no simplex stays, and the core holds nothing over that */
-	if (!clears(up))
-		change_hold(change);
 	if (up->tracked != NULL)
 		change_points_and_lines(up);
 	else
 		change_points(up);
-	if (change->holds)
-		change_settle(change);
 	change_end(change);
 }
 

@@ -86,19 +86,19 @@ given_columns(ArrayType *given)
 	return columns;
 }
 
-static void
-check_columns(Relation table, List *columns)
+/* Refuses columns of other types; the table has them. */
+void
+tracked_lines_check_types(const TrackedLines *lines, Relation table)
 {
-	bool		is_drawn = list_length(columns) == GEOMETRY_COLUMNS;
+	bool		is_drawn = list_length(lines->columns) == GEOMETRY_COLUMNS;
 	ListCell   *cell;
 
-	foreach(cell, columns)
+	foreach(cell, lines->columns)
 	{
-		AttrNumber	number = column_number(table, lfirst(cell));
+		AttrNumber	number = get_attnum(RelationGetRelid(table), lfirst(cell));
 		Oid			type = TupleDescAttr(RelationGetDescr(table), number - 1)->atttypid;
 		bool		wants_geometry = is_drawn && foreach_current_index(cell) == 1;
 
-		tracked_check_column(table, number);
 		if (wants_geometry ? geometry_is_type(type) : line_value_is_integer(getBaseType(type)))
 			continue;
 		ereport(ERROR,
@@ -106,7 +106,9 @@ check_columns(Relation table, List *columns)
 				 errmsg("column \"%s\" of table \"%s\" has type %s", (char *) lfirst(cell),
 						RelationGetRelationName(table), format_type_be(type)),
 				 wants_geometry ? errdetail("The second of two columns is a geometry.")
-				 : errdetail("Lines, positions, points and parts are integers.")));
+				 : errdetail("Lines, positions, points and parts are integers."),
+				 errhint("Name another column with the argument columns of abacus_track_lines(), or give "
+						 "this one such a type.")));
 	}
 }
 
@@ -117,11 +119,14 @@ tracked_lines_given(Relation table, abacus_names names, ArrayType *columns, cons
 {
 	TrackedLines *lines = palloc0(sizeof(TrackedLines));
 	bool		is_word = strcmp(kind, "hard") == 0 || strcmp(kind, "soft") == 0;
+	ListCell   *cell;
 
 	lines->table = RelationGetRelid(table);
 	lines->user = table->rd_rel->relowner;
 	lines->columns = columns != NULL ? given_columns(columns) : default_columns(table);
-	check_columns(table, lines->columns);
+	foreach(cell, lines->columns)
+		tracked_check_column(table, column_number(table, lfirst(cell)));
+	tracked_lines_check_types(lines, table);
 	lines->kind = is_word ? kind : NULL;
 	lines->kind_column = is_word ? NULL : kind;
 	if (!is_word && !has_column(table, kind))
@@ -240,13 +245,16 @@ static Relation
 table_of_points(Relation mesh, List **columns)
 {
 	TrackingTrigger *trigger = tracking_followed(mesh, TRACKED_POINTS);
+	Relation	table;
 
 	if (trigger == NULL)
 		return NULL;
 	*columns = NIL;
 	for (int i = TRACKING_ARGUMENT_COLUMNS; i < trigger->count; i++)
 		*columns = lappend(*columns, trigger->arguments[i]);
-	return table_open(tracking_root(trigger->table), AccessShareLock);
+	table = table_open(tracking_root(trigger->table), AccessShareLock);
+	tracked_check_places(table, *columns);
+	return table;
 }
 
 /* The rows of lines; `points` is the table that has their points, or NULL. */

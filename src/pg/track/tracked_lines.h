@@ -38,6 +38,7 @@ typedef struct TrackedLines
 
 extern TrackedLines *tracked_lines_given(Relation table, abacus_names names, ArrayType *columns,
 										 const char *kind, const char *z);
+extern void tracked_lines_check_types(const TrackedLines *lines, Relation table);
 extern TrackedLines *tracked_lines_of(Relation mesh);
 extern bool tracked_lines_read(TrackedLines *lines, char **arguments, int count);
 extern List *tracked_lines_arguments(const TrackedLines *lines);

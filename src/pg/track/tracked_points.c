@@ -114,6 +114,25 @@ tracked_check_column(Relation table, AttrNumber number)
 						 "follows the table already.")));
 }
 
+/*
+ * The number of a column that a mesh follows; `function` has named it, and may do so again. The column
+ * may have been renamed or dropped since.
+ */
+AttrNumber
+tracked_column(Relation table, const char *name, const char *function)
+{
+	AttrNumber	number = get_attnum(RelationGetRelid(table), name);
+
+	if (number <= 0)
+		ereport(ERROR,
+				(errcode(ERRCODE_UNDEFINED_COLUMN),
+				 errmsg("column \"%s\" of table \"%s\", which a mesh follows, does not exist", name,
+						RelationGetRelationName(table)),
+				 errhint("Name the columns again with %s, or call abacus_untrack().", function)));
+	tracked_check_column(table, number);
+	return number;
+}
+
 /* The names of a point's columns: as given, or as in the mesh. */
 static List *
 column_names(ArrayType *given, abacus_names mesh, Relation table)
@@ -279,6 +298,21 @@ char *
 tracked_points_of_one_table(Relation table, List *columns, int dimension)
 {
 	return select_points(table, columns, dimension, false, "FROM ONLY");
+}
+
+/* Refuses a table of points whose ids or places cannot be read any more, as transitions do. */
+void
+tracked_check_places(Relation table, List *columns)
+{
+	static const abacus_facts plane = {.form.dimension = 2};
+	static const abacus_names names = {.facts = &plane};
+	List	   *places;
+
+	tracked_column(table, linitial(columns), "abacus_track()");
+	tracked_column(table, lsecond(columns), "abacus_track()");
+	places = list_copy_head(columns, 1 + place_columns(table, columns, 2));
+	tracked_column(table, llast(places), "abacus_track()");
+	check_types(places, names, table);
 }
 
 /* SELECT of id, x and y of the table's points that have certain ids; `ids` is a query for them. */

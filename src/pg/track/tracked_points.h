@@ -11,6 +11,8 @@
 #include "abacus/mesh_header.h"
 
 extern void tracked_check_column(Relation table, AttrNumber number);
+extern AttrNumber tracked_column(Relation table, const char *name, const char *function);
+extern void tracked_check_places(Relation table, List *columns);
 extern List *tracked_columns(ArrayType *given, abacus_names mesh, Relation table);
 extern char *tracked_points_of_table(Relation table, List *columns, int dimension, bool packed);
 extern char *tracked_points_of_other_srid(Relation table, List *columns,

@@ -108,16 +108,8 @@ transition_open(const TriggerData *trigger)
 	transition->points = CreateTemplateTupleDesc(transition->inputs);
 	for (int i = 0; i < transition->inputs; i++)
 	{
-		AttrNumber	number = get_attnum(RelationGetRelid(trigger->tg_relation), names[i]);
+		AttrNumber	number = tracked_column(trigger->tg_relation, names[i], "abacus_track()");
 
-		if (number <= 0)
-			ereport(ERROR,
-					(errcode(ERRCODE_UNDEFINED_COLUMN),
-					 errmsg("column \"%s\" of table \"%s\", which a mesh follows, does not exist",
-							names[i], RelationGetRelationName(trigger->tg_relation)),
-					 errhint("Name the columns again with abacus_track(), or call "
-							 "abacus_untrack().")));
-		tracked_check_column(trigger->tg_relation, number);
 		transition->numbers[i] = number;
 		TupleDescCopyEntry(transition->points, i + 1, desc, number);
 	}

@@ -97,14 +97,12 @@ make_equal(Change *change, const Tracked *tracked, bool synchronize)
 	if (!synchronize)
 		refuse_difference(tracked, missing, surplus);
 	/* since it is inserted first, a point that differs only in its attributes replaces the other */
-	change_hold(change);
 	change_swap_stages(change);
 	if (missing > 0)
 		change_insert(change);
 	change_swap_stages(change);
 	if (surplus > 0)
 		change_delete(change, true);
-	change_settle(change);
 	return missing + surplus > 0 || srid != facts->form.srid;
 }
 

@@ -102,9 +102,7 @@ abacus_sql_track_lines(PG_FUNCTION_ARGS)
 								  text_to_cstring(PG_GETARG_TEXT_PP(3)),
 								  PG_ARGISNULL(4) ? NULL : text_to_cstring(PG_GETARG_TEXT_PP(4)));
 	call.arguments = tracked_lines_arguments(tracked);
-	change_hold(change);
 	bring_in_step(change, table, tracked, PG_GETARG_BOOL(5));
-	change_settle(change);
 	lines = change->writer.header->facts.census.lines;
 	change_end(change);
 	tracked_table_follow(&call, table);

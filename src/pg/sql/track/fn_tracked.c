@@ -125,7 +125,6 @@ follow(const TriggerData *trigger, Transition *transition, Change *change)
 		revise(trigger, transition, change);
 		return;
 	}
-	change_hold(change);
 	if (transition->new.rows != NULL && stage(transition, true, change) > 0)
 	{
 		change_take_srid(change, transition_srid(transition));
@@ -135,7 +134,6 @@ follow(const TriggerData *trigger, Transition *transition, Change *change)
 	if (transition->old.rows != NULL && (gone = stage(transition, false, change)) > 0)
 		in_step_check_found(change, RelationGetRelationName(trigger->tg_relation), "delete", gone,
 							change_delete(change, true));
-	change_settle(change);
 }
 
 /*

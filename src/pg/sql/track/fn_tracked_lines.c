@@ -80,27 +80,10 @@ open_lines(const TriggerData *trigger)
 	columns = tracked_lines_columns(&lines->tracked);
 	lines->numbers = palloc(list_length(columns) * sizeof(AttrNumber));
 	foreach(cell, columns)
-	{
-		AttrNumber	number = get_attnum(RelationGetRelid(table), lfirst(cell));
-
-		if (number <= 0)
-			ereport(ERROR,
-					(errcode(ERRCODE_UNDEFINED_COLUMN),
-					 errmsg("column \"%s\" of table \"%s\", which a mesh follows, does not exist",
-							(char *) lfirst(cell), RelationGetRelationName(table)),
-					 errhint("Name the columns again with abacus_track_lines(), or call "
-							 "abacus_untrack().")));
-		tracked_check_column(table, number);
-		lines->numbers[lines->count++] = number;
-	}
+		lines->numbers[lines->count++] = tracked_column(table, lfirst(cell), "abacus_track_lines()");
+	tracked_lines_check_types(&lines->tracked, table);
 	lines->is_drawn = list_length(lines->tracked.columns) == LINE_ROW_POSITION + 1;
 	lines->type = getBaseType(TupleDescAttr(RelationGetDescr(table), lines->numbers[0] - 1)->atttypid);
-	if (!line_value_is_integer(lines->type))
-		ereport(ERROR,
-				(errcode(ERRCODE_DATATYPE_MISMATCH),
-				 errmsg("column \"%s\" of table \"%s\" is not an integer", (char *) linitial(columns),
-						RelationGetRelationName(table)),
-				 errhint("Lines have integers as ids. Call abacus_untrack() if that has changed.")));
 	return lines;
 }
 
