@@ -173,6 +173,10 @@ public:
         return FixedFacets<D>::from_bits(facets, region(simplex));
     }
     bool has_regions() const { return (header_.lined & PageHeader::has_regions) != 0; }
+    /// Whether the head of the column lets a simplex be in this region; true where one is.
+    bool may_have_region(RegionNumber region) const {
+        return has_regions() && regions_.may_have(region, region);
+    }
     /// Its number; checked by read_rest() alone.
     RegionNumber region(int simplex) const {
         return has_regions() ? static_cast<RegionNumber>(regions_[simplex]) : no_region;

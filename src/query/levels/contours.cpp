@@ -2,6 +2,7 @@
 
 #include "query/levels/contour_rings.hpp"
 #include "query/pages/page_simplex.hpp"
+#include "query/scan/extent_pages.hpp"
 
 #include <cmath>
 #include <limits>
@@ -29,8 +30,9 @@ Contours::Contours(const Host &host, const abacus_facts &facts, const abacus_win
     : host_(host), facts_(facts), simplices_(facts.census.simplices + facts.census.ghosts),
       pacer_(host), how_(checked(facts, contouring)), window_(window), bounds_(window),
       levels_(how_), attribute_(&how_.attribute, 1), vertex_values_(host, facts),
-      pages_(host, facts, window_.region()), cut_(bounds_, levels_, how_.bands != 0),
-      pieces_(host, memory / 3 * 2), rims_(host, bounds_, levels_, memory / 3), edges_(host) {}
+      pages_(host, facts, window_.region(), pages_in<2>(how_.extent)),
+      cut_(bounds_, levels_, how_.bands != 0), pieces_(host, memory / 3 * 2),
+      rims_(host, bounds_, levels_, memory / 3), edges_(host) {}
 
 void Contours::each(abacus_contour_report report, void *context) {
     read();
@@ -59,7 +61,7 @@ void Contours::read() {
 }
 
 void Contours::count() {
-    RangeScan<2> pages(host_, facts_, window_.region());
+    RangeScan<2> pages(host_, facts_, window_.region(), pages_in<2>(how_.extent));
     double chains =
         0; // at least: of each level in a triangle one, which others of its page may join
     std::uint64_t seen = 0;

@@ -4,6 +4,7 @@
 #include "geometry/map_plane.hpp"
 #include "query/pages/extent.hpp"
 #include "query/pages/page_values.hpp"
+#include "query/scan/extent_pages.hpp"
 #include "query/scan/range_scan.hpp"
 #include "query/scan/simplex_labels.hpp"
 
@@ -181,7 +182,7 @@ void stream(RangeScan<D> &pages, View &view, Picture &picture) {
 template <int D, class View>
 Portrait draw(const Host &host, const abacus_facts &facts, const abacus_drawing &drawing,
               std::int32_t margin, const Region<D> *region, View &&view, abacus_ramp usual) {
-    RangeScan<D> pages(host, facts, region);
+    RangeScan<D> pages(host, facts, region, pages_in<D>(drawing.extent));
     bool again = false;
     const auto show = [&](auto &picture) {
         if (std::exchange(again, true)) pages.rewind();

@@ -8,6 +8,7 @@
 #include "query/pages/page_flood.hpp"
 #include "query/pages/page_simplex.hpp"
 #include "query/places/places.hpp"
+#include "query/scan/extent_pages.hpp"
 #include "query/values/barycentric.hpp"
 #include "query/values/weighted_mean.hpp"
 
@@ -199,7 +200,7 @@ template <class Visit>
 void ValueRaster<D>::each_page(const Box<D> &band, Visit visit) {
     const BoxRegion<D> region(band);
     if (abacus_floods_pages(facts_.standing)) {
-        RangeScan<D> pages(host_, facts_, &region);
+        RangeScan<D> pages(host_, facts_, &region, pages_in<D>(how_.extent));
         while (pages.advance()) visit(pages.page());
         return;
     }

@@ -2,6 +2,7 @@
 
 #include "keys/domain_of.hpp"
 #include "query/pages/page_simplex.hpp"
+#include "query/scan/extent_pages.hpp"
 
 namespace abacus {
 
@@ -9,10 +10,12 @@ template <int D>
 CellScan<D>::CellScan(const Host &host, const abacus_facts &facts, const abacus_window &window,
                       const abacus_extent &extent, const abacus_range *label)
     : domain_(domain_of<D>(facts.form)), filter_(window, extent), vertex_values_(host, facts) {
-    typename RangeScan<D>::Wants wants;
+    typename RangeScan<D>::Wants wants = pages_in<D>(extent);
     if (label != nullptr) {
         label_.emplace(host, facts, *label);
-        wants = [this](const PageView<D> &page) { return label_->may_be_in(page); };
+        wants = [this, in_extent = std::move(wants)](const PageView<D> &page) {
+            return (!in_extent || in_extent(page)) && label_->may_be_in(page);
+        };
     }
     pages_.emplace(host, facts, filter_.region(), wants);
 }
