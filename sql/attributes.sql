@@ -103,7 +103,7 @@ SELECT abacus_drop_attribute('changing', 'a');
 SELECT abacus_add_attribute('changing', NULL), abacus_drop_attribute('changing', NULL);
 SELECT abacus_load('notch', 'VALUES (1, 0, 0, 1), (2, 4, 0, 2), (3, 4, 1, 3), (4, 0, 1, 4), (5, 2, 0.1, 5)', 'VALUES (1, 2, 5), (2, 3, 5), (3, 4, 5)', '{h}');
 SELECT abacus_add_attribute('notch', 'more');
-\echo :LAST_ERROR_SQLSTATE
+SELECT id, attributes FROM abacus_vertices('notch') ORDER BY id;
 SELECT abacus_create('full', 2, array_agg('a' || i)) FROM generate_series(1, 1000) i;
 SELECT abacus_add_attribute('full', 'more');
 \echo :LAST_ERROR_SQLSTATE

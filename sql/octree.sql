@@ -79,6 +79,25 @@ SELECT abacus_octree_from_size('sized', 'SELECT 1 WHERE $1[1] + $2[1] + $3[1] > 
 SELECT abacus_octree_from_size('sized', 'SELECT $1[2:] WHERE $2[1] + $3[1] > 0');
 SELECT abacus_octree_from_size('sized', 'SELECT array_agg(1 / 0 + x) FROM unnest($1) x WHERE $2[1] + $3[1] > 0');
 
+-- a thin layer: told how long octants are, the query finds it; with samples, and what they miss
+SELECT abacus_octree_create('thin', 3, '{0,0,-10000}', '{10000,10000,0}', levels => 6);
+SELECT abacus_octree_from_size('thin', 'SELECT array_agg(CASE WHEN z > -50 THEN 300 ELSE 5000 END::float8) FROM unnest($3) z');
+BEGIN;
+SELECT abacus_octree_from_size('thin', 'SELECT array_agg(CASE WHEN z + edge / 2 > -50 THEN 300 ELSE 5000 END::float8 ORDER BY n) FROM unnest($3, $4) WITH ORDINALITY AS c(z, edge, n)');
+SELECT count(*) FROM abacus_octants('thin') WHERE upper[3] > -50 AND upper[1] - lower[1] > 300;
+ROLLBACK;
+BEGIN;
+SELECT abacus_octree_from_size('thin', 'SELECT array_agg(CASE WHEN z > -400 THEN 300 ELSE 5000 END::float8 ORDER BY n) FROM unnest($3) WITH ORDINALITY AS c(z, n)', samples => 8);
+SELECT count(*) FROM abacus_octants('thin') WHERE upper[3] > -50 AND upper[1] - lower[1] > 300;
+SELECT abacus_octree_from_size('thin', 'SELECT array_agg(100.0::float8 + z - z) FROM unnest($3) z', samples => 2);
+ROLLBACK;
+-- what a large octant has met is counted, where smaller ones miss it
+SELECT abacus_octree_create('missed', 2, '{0,0}', '{1024,1024}');
+SELECT abacus_octree_from_size('missed', 'SELECT array_agg(CASE WHEN x = 512 THEN 10 ELSE 600 END::float8 ORDER BY n) FROM unnest($1) WITH ORDINALITY AS c(x, n)');
+SELECT abacus_octree_from_size('missed', 'SELECT $1 || $2 || $3', samples => 0);
+SELECT abacus_octree_from_size('missed', 'SELECT $1 || $2 || $3', samples => 17);
+DROP TABLE thin, missed;
+
 -- memory does not grow with what is asked
 CREATE TABLE used (bytes bigint);
 CREATE FUNCTION note_use() RETURNS float8 LANGUAGE plpgsql AS $$

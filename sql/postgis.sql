@@ -57,6 +57,16 @@ SELECT v0, v1, v2, geom IS NULL AS no_surface FROM abacus_cells_geom('terrain', 
 SELECT v0, v1, v2, whole, geom IS NULL AS no_surface FROM abacus_clip('terrain', 'SRID=2154;POLYGON((1 1, 39 1, 39 29, 1 29, 1 1))', 'height') ORDER BY v0, v1, v2;
 SELECT ST_AsText(abacus_drape('terrain', 'SRID=2154;LINESTRING(10 10, 39 29)', densify => true), 3);
 
-DROP TABLE terrain, plain, rock, sites;
+-- a z that no attribute takes
+CREATE TABLE lidar (id int, geom geometry(PointZ));
+INSERT INTO lidar VALUES (1, 'POINT Z (0 0 5)'), (2, 'POINT Z (9 0 6)'), (3, 'POINT Z (0 9 7)'), (4, 'POINT Z (8 9 7)');
+SET client_min_messages = notice;
+SELECT abacus_triangulate('left_out', 'SELECT id, geom FROM lidar');
+SELECT abacus_delete('left_out', 'SELECT id, geom FROM lidar WHERE id = 4');
+SELECT abacus_triangulate('kept', 'SELECT id, geom, ST_Z(geom) AS z FROM lidar');
+SELECT abacus_triangulate('tetrahedron', 'SELECT id, geom FROM (SELECT id, ST_Translate(geom, 0, 0, id * id)::geometry(PointZ) AS geom FROM lidar) AS moved', dimension => 3);
+SET client_min_messages = warning;
+
+DROP TABLE terrain, plain, rock, sites, lidar, left_out, kept, tetrahedron;
 DROP EXTENSION abacus_postgis, postgis;
 DROP SCHEMA regress_postgis CASCADE;

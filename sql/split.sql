@@ -60,7 +60,7 @@ SELECT marker, v0, v1 FROM abacus_facets('fault');
 SELECT * FROM abacus_check('fault');
 SELECT labels, count(*) FROM abacus_cells('fault') GROUP BY labels ORDER BY labels;
 SELECT length(abacus_draw('fault', attribute => 'slip', width => 40)) > 100 AS drawn;
--- It can be read, not changed.
+-- Its attributes can change, its points cannot.
 SELECT abacus_insert('fault', 'SELECT 5, 2.5, 2.5, 1');
 SELECT abacus_delete('fault', 'SELECT 23, 2, 3');
 SELECT abacus_update('fault', 'SELECT 23 AS id, 2 AS x, 3 AS y, 4 AS slip');

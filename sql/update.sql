@@ -64,7 +64,7 @@ SELECT abacus_update('empty', 'SELECT 1, 2, 3, 4 AS v');
 SELECT abacus_load('loaded', 'VALUES (1, 0, 0, 1), (2, 4, 0, 2), (3, 4, 1, 3), (4, 0, 1, 4), (5, 2, 0.1, 5)',
                    'VALUES (1, 2, 5), (2, 3, 5), (3, 4, 5)', '{h}');
 SELECT abacus_update('loaded', 'SELECT 1, 0, 0, 2 AS h');
-\echo :LAST_ERROR_SQLSTATE
+SELECT id, attributes FROM abacus_vertices('loaded') ORDER BY id;
 SELECT count(*) FROM wrong WHERE id > 0;
 -- a rollback, also to a savepoint
 BEGIN;

@@ -63,17 +63,24 @@ ABACUS_API abacus_status abacus_octree_growth_points(abacus_octree_growth *growt
 													 abacus_header *header,
 													 abacus_error *error);
 /*
- * Says how large octants may be: gets the centers of `count` octants, coordinate by coordinate, and
- * the longest edge of each, and sets the size allowed there. A size that is NaN splits nothing. May
+ * Says how large octants may be: gets `count` places, coordinate by coordinate, and the longest edge
+ * of the octant around each, and sets the size allowed there. A size that is NaN splits nothing. May
  * fail as a host function may.
  */
 typedef abacus_host_status (*abacus_octree_sizes)(void *context, size_t count,
-												  const double *const *centers,
+												  const double *const *places,
 												  const double *edges, double *sizes);
-/* Leaves are no larger than the size given for their centers, unless they have the finest level. */
+/* The most places along an axis of an octant. */
+#define ABACUS_MAX_SAMPLES 16
+/*
+ * Leaves are no larger than the least size given for the centers of the `samples` equal parts along
+ * each axis, unless they have the finest level. *longer becomes the number of leaves that are
+ * larger than a size that was given for a place in them.
+ */
 ABACUS_API abacus_status abacus_octree_growth_sizes(abacus_octree_growth *growth,
 													abacus_octree_sizes sizes, void *context,
-													abacus_header *header, abacus_error *error);
+													uint32_t samples, abacus_header *header,
+													uint64_t *longer, abacus_error *error);
 /* Leaves that touch across a face (1), an edge (2) or a corner (3) differ by at most one level. */
 ABACUS_API abacus_status abacus_octree_growth_balance(abacus_octree_growth *growth, int32_t across,
 													  abacus_header *header,

@@ -28,12 +28,12 @@ LANGUAGE C VOLATILE STRICT PARALLEL UNSAFE;
 COMMENT ON FUNCTION abacus_octree_from_points(regclass, text, integer) IS
     'splits leaves until none has more than so many points of a query. Returns the number of leaves. Shapes: the query returns id, x, y[, z]. Errors: 22023 a place outside the domain; 42809 not an octree; those of abacus_insert about the query';
 
-CREATE FUNCTION abacus_octree_from_size(octree regclass, query text)
+CREATE FUNCTION abacus_octree_from_size(octree regclass, query text, samples integer DEFAULT 1)
 RETURNS bigint
 AS 'MODULE_PATHNAME', 'abacus_sql_octree_from_size'
 LANGUAGE C VOLATILE STRICT PARALLEL UNSAFE;
-COMMENT ON FUNCTION abacus_octree_from_size(regclass, text) IS
-    'splits leaves that are longer than a query allows. Returns the number of leaves. Shapes: the query takes $1, $2[, $3], arrays of the coordinates of centres, and returns one array of sizes, in the same order. Units: sizes in those of the coordinates. Errors: 42804 anything but one array of the right length; 42809 not an octree';
+COMMENT ON FUNCTION abacus_octree_from_size(regclass, text, integer) IS
+    'splits leaves that are longer than a query allows. Asks at the centre of an octant; with samples, at the centres of so many equal parts along each axis, and takes the least size. A NOTICE counts leaves longer than a size that was returned for a place in them. Returns the number of leaves. Shapes: the query takes $1, $2[, $3], arrays of the coordinates of places, and one more array of the longest edges of the octants around them; it returns one array of sizes, in the same order. Units: sizes and edges in those of the coordinates. Errors: 22023 samples not from 1 to 16; 42804 anything but one array of the right length; 42809 not an octree';
 
 CREATE FUNCTION abacus_octree_from_rows(octree regclass, query text)
 RETURNS bigint

@@ -1,7 +1,6 @@
 // Building behind the C interface.
 #include "capi/build.hpp"
 
-#include "capi/editable.hpp"
 #include "capi/handle.hpp"
 #include "capi/stage.hpp"
 #include "query/pages/describe.hpp"
@@ -12,7 +11,6 @@
 abacus_status abacus_build_open(const abacus_host *host, const abacus_facts *facts,
                                 size_t cache_bytes, abacus_build **build, abacus_error *error) {
     return abacus::guard(error, [&] {
-        abacus::require_editable(*facts);
         *build = abacus::create_handle<abacus_build>(host, *facts, cache_bytes);
         return ABACUS_OK;
     });
@@ -65,30 +63,33 @@ abacus_status abacus_build_update(abacus_build *build, abacus_stage *stage,
                                   const uint32_t *attributes, size_t count, int exactly,
                                   abacus_header *header, uint64_t *updated,
                                   abacus_named_place *missing, abacus_error *error) {
-    return abacus::run_change(build, header, error, [&](auto &opened, abacus_header &changed) {
+    const auto run = [&](auto &opened, abacus_header &changed) {
         *updated = opened.update(stage_for(opened, stage), {attributes, count}, exactly != 0,
                                  changed, *missing);
-    });
+    };
+    return exactly != 0 ? abacus::run_change(build, header, error, run)
+                        : abacus::run_change_of_values(build, header, error, run);
 }
 
 abacus_status abacus_build_change_attributes(abacus_build *build, const uint32_t *source,
                                              size_t count, size_t memory, abacus_header *header,
                                              abacus_error *error) {
-    return abacus::run_change(build, header, error, [&](auto &opened, abacus_header &changed) {
-        for (std::size_t i = 0; i < count; ++i)
-            if (source[i] == abacus::no_attribute) {
-                std::memset(changed.names[i], 0, ABACUS_NAME_BYTES);
-                changed.types[i] = ABACUS_FLOAT8;
-            } else {
-                std::memcpy(changed.names[i], header->names[source[i]], ABACUS_NAME_BYTES);
-                changed.types[i] = header->types[source[i]];
-            }
-        const abacus_columns &before = header->facts.columns;
-        std::memcpy(changed.names[count], header->names[before.attributes],
-                    before.labels * std::size_t{ABACUS_NAME_BYTES});
-        std::memcpy(changed.types + count, header->types + before.attributes, before.labels);
-        opened.change_attributes({source, count}, memory, changed);
-    });
+    return abacus::run_change_of_values(
+        build, header, error, [&](auto &opened, abacus_header &changed) {
+            for (std::size_t i = 0; i < count; ++i)
+                if (source[i] == abacus::no_attribute) {
+                    std::memset(changed.names[i], 0, ABACUS_NAME_BYTES);
+                    changed.types[i] = ABACUS_FLOAT8;
+                } else {
+                    std::memcpy(changed.names[i], header->names[source[i]], ABACUS_NAME_BYTES);
+                    changed.types[i] = header->types[source[i]];
+                }
+            const abacus_columns &before = header->facts.columns;
+            std::memcpy(changed.names[count], header->names[before.attributes],
+                        before.labels * std::size_t{ABACUS_NAME_BYTES});
+            std::memcpy(changed.types + count, header->types + before.attributes, before.labels);
+            opened.change_attributes({source, count}, memory, changed);
+        });
 }
 
 abacus_status abacus_build_clear(abacus_build *build, abacus_header *header, uint64_t *deleted,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "capi/dimension.hpp"
+#include "capi/editable.hpp"
 #include "capi/guard.hpp"
 #include "change/build.hpp"
 #include "delaunay/line_source.hpp"
@@ -57,15 +58,26 @@ struct abacus_build {
 
 namespace abacus {
 
-/// Runs change(build, header) on the build of either dimension.
+/// Runs change(build, header), which leaves all simplices as they are, on the build of either
+/// dimension.
 template <class Change>
-abacus_status run_change(abacus_build *build, abacus_header *header, abacus_error *error,
-                         Change change) noexcept {
+abacus_status run_change_of_values(abacus_build *build, abacus_header *header, abacus_error *error,
+                                   Change change) noexcept {
     return guard(error, [&] {
         abacus_header changed = *header; // the caller's stays as it is if the change fails
         build->build.visit([&](auto &opened) { change(opened, changed); });
         *header = changed;
         return ABACUS_OK;
+    });
+}
+
+/// The same for a change that may create and remove simplices.
+template <class Change>
+abacus_status run_change(abacus_build *build, abacus_header *header, abacus_error *error,
+                         Change change) noexcept {
+    return run_change_of_values(build, header, error, [&](auto &opened, abacus_header &changed) {
+        require_editable(changed.facts);
+        change(opened, changed);
     });
 }
 

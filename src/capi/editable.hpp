@@ -14,7 +14,7 @@ inline void require_editable(const abacus_facts &facts) {
     const auto delaunay = static_cast<abacus_delaunay>(facts.standing);
     throw Error(ABACUS_ERROR_STATE, abacus_delaunay_clause(delaunay),
                 std::string(abacus_delaunay_reason(delaunay)) +
-                    " The mesh was loaded by abacus_load() and can be read, but not changed.",
+                    " The mesh was loaded by abacus_load() and cannot have other points.",
                 "Triangulate its vertices anew, by abacus_load() with retriangulate => true or by "
                 "abacus_triangulate().");
 }

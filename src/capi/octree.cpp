@@ -111,11 +111,12 @@ abacus_status abacus_octree_growth_points(abacus_octree_growth *growth, uint64_t
 }
 
 abacus_status abacus_octree_growth_sizes(abacus_octree_growth *growth, abacus_octree_sizes sizes,
-                                         void *context, abacus_header *header,
-                                         abacus_error *error) {
+                                         void *context, uint32_t samples, abacus_header *header,
+                                         uint64_t *longer, abacus_error *error) {
     return abacus::dispatch(growth->growth, error, [&](auto &grown) {
-        abacus::change(header,
-                       [&](abacus_header &changed) { grown.to_sizes(sizes, context, changed); });
+        abacus::change(header, [&](abacus_header &changed) {
+            *longer = grown.to_sizes(sizes, context, static_cast<int>(samples), changed);
+        });
     });
 }
 

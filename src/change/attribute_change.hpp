@@ -9,6 +9,10 @@
 //                       pages rebuilt. If they are in the simplex pages, each of these is loaded
 //                       with the new attributes of its vertices, and written again. If they become
 //                       apart, both is done.
+//   listed vertices     of a loaded mesh that is not Delaunay: by way of a spool. There the
+//   simplices
+//                       around a vertex need not be connected, so attributes that become apart are
+//                       taken from the list.
 //
 // A mesh whose attributes are apart keeps them apart as long as it has any. Any other mesh follows
 // the same rule as a new one.
@@ -53,13 +57,11 @@ public:
             rewrite_simplices(0);
         else if (!was_apart && count_ != work_.attributes)
             rewrite_simplices(static_cast<int>(count_));
+        if (work_.lists_vertices() && !was_apart) rewrite_list(will_be_apart ? 0 : count_);
     }
 
 private:
     static constexpr std::uint64_t report_every = 256; // vertices
-    /// Each page is loaded once, and the pages written show how much the next ones may hold. So a
-    /// cache for a few pages does better than a large one.
-    static constexpr std::size_t pass_bytes = std::size_t{1} << 20;
 
     void convert(const double *from, std::uint64_t *to) const {
         for (const std::uint32_t source : source_)
@@ -101,7 +103,10 @@ private:
     /// Writes the attributes of vertices to attribute pages, wherever they have been.
     void move_apart() {
         RecordSort sort(host_, 1 + D + count_, 1, memory_); // code, coordinates, attributes
-        collect(sort);
+        if (work_.lists_vertices())
+            collect_listed(sort);
+        else
+            collect(sort);
         erase_apart();
         work_.apart.emplace(host_, work_.domain, count_);
         sort.finish();
@@ -113,6 +118,40 @@ private:
             if (++done % report_every == 0) pacer.reached(done);
         }
         sort.close();
+    }
+
+    /// Adds the new attributes of a vertex to the sort.
+    void add(RecordSort &sort, const Point<D> &p, std::uint64_t code, const double *attributes) {
+        std::uint64_t *const to = sort.add();
+        to[0] = code;
+        std::memcpy(to + 1, p.data(), sizeof p);
+        convert(attributes, to + 1 + D);
+    }
+
+    /// Those of listed vertices.
+    void collect_listed(RecordSort &sort) {
+        VertexReader<D> list(host_, work_.apart ? 0 : work_.attributes, 0,
+                             work_.facts->census.staged);
+        while (list.advance()) {
+            const Point<D> p = list.point();
+            const std::uint64_t code = work_.domain.code(p);
+            if (work_.apart) work_.apart->get(p, code, values_.data());
+            add(sort, p, code, work_.apart ? values_.data() : list.attributes());
+        }
+    }
+
+    /// The list of vertices, with so many of the new attributes.
+    void rewrite_list(unsigned attributes) {
+        const std::uint64_t count = work_.facts->census.staged;
+        RecordSpool spool(host_, record_words(D, attributes));
+        VertexReader<D> list(host_, work_.attributes, 0, count, true);
+        while (list.advance())
+            std::copy_n(converted(list.record()), record_words(D, attributes), spool.add());
+        spool.rewind();
+        VertexPageWriter pages(host_, D, attributes, 0);
+        while (const std::uint64_t *record = spool.next()) pages.add(record);
+        pages.finish();
+        spool.close();
     }
 
     /// Adds the new attributes of vertices to the sort.
@@ -134,10 +173,7 @@ private:
             });
             for (const VertexIndex v : vertices) {
                 const Vertex<D> &vertex = cache.vertices()[v];
-                std::uint64_t *const to = sort.add();
-                to[0] = vertex.code;
-                std::memcpy(to + 1, vertex.point.data(), sizeof vertex.point);
-                convert(attributes_of(v), to + 1 + D);
+                add(sort, vertex.point, vertex.code, attributes_of(v));
             }
         }
     }
@@ -161,8 +197,7 @@ private:
     /// With this many attributes in the simplex pages.
     void rewrite_simplices(int attributes) {
         Cache<D> cache(host_, work_.domain, attributes,
-                       CacheOptions{.budget = std::min(work_.cache_bytes, pass_bytes),
-                                    .former = {static_cast<int>(work_.attributes), source_}});
+                       work_.pass_options({static_cast<int>(work_.attributes), source_}));
         Pacer pacer(host_);
         pacer.begin(ABACUS_PHASE_FLUSHING,
                     work_.facts->census.simplices + work_.facts->census.ghosts);

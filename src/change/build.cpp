@@ -3,6 +3,7 @@
 #include "blocks/counters.hpp"
 #include "change/attribute_change.hpp"
 #include "change/crowding.hpp"
+#include "change/listed_revision.hpp"
 #include "change/revision.hpp"
 #include "host/stopwatch.hpp"
 
@@ -99,16 +100,20 @@ std::uint64_t Build<D>::update(Stage<D> &stage, std::span<const std::uint32_t> w
         const std::uint64_t points = stage.points();
         const bool keeps = !work_.has_waiting() && labels_.follows_all();
         inserting_.insert_waiting(0);
-        Revision<D> revision(work_, which, exactly);
-        abacus_facts ordered = header.facts; // which may have no domain, if it has no points
-        stage.end(ordered);
-        stage.emit(revision, ordered);
-        changed = revision.changed();
-        if (revision.missing()) {
+        const auto revise = [&](auto revision) {
+            abacus_facts ordered = header.facts; // which may have no domain, if it has no points
+            stage.end(ordered);
+            stage.emit(revision, ordered);
+            changed = revision.changed();
+            if (!revision.missing()) return;
             missing.id = record_id(revision.missing()->data());
             const Point<D> p = record_point<D>(revision.missing()->data());
             std::copy(p.begin(), p.end(), missing.point);
-        }
+        };
+        if (work_.lists_vertices())
+            revise(ListedRevision<D>(work_, which));
+        else
+            revise(Revision<D>(work_, which, exactly));
         if (keeps) {
             work_.core->cache.flush();
             labels_.keep_all();
@@ -124,8 +129,9 @@ void Build<D>::change_attributes(std::span<const std::uint32_t> source, std::siz
     const auto count = static_cast<std::uint32_t>(source.size());
     abacus_columns &columns = header.facts.columns;
     const bool was_apart = columns.apart != 0;
-    const bool will_be_apart =
-        count > 0 && (was_apart || abacus_are_apart(header.facts.form.dimension, count) != 0);
+    const bool will_be_apart = // apart they are found by place, which split nodes share
+        count > 0 && header.facts.census.split == 0 &&
+        (was_apart || abacus_are_apart(header.facts.form.dimension, count) != 0);
     change(header, [&] {
         AttributeChange<D>(work_, source, memory).change(was_apart, will_be_apart);
         columns.attributes = count;

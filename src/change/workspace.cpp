@@ -7,6 +7,12 @@
 
 namespace abacus {
 
+namespace {
+/// Each page is loaded once, and the pages written show how much the next ones may hold. So a cache
+/// for a few pages does better than a large one.
+constexpr std::size_t pass_bytes = std::size_t{1} << 20;
+} // namespace
+
 template <int D>
 Workspace<D>::Core::Core(const Host &host, const abacus_facts &facts, std::size_t cache_bytes,
                          AttributePages<D> *attributes)
@@ -112,6 +118,13 @@ template <int D> void Workspace<D>::forget_simplices() {
         facts->census.ghosts = 0;
     facts->census.lines_wait = facts->census.lines > 0 ? 1 : 0;
     forget_cache();
+}
+
+template <int D> CacheOptions Workspace<D>::pass_options(const FormerAttributes &former) const {
+    return {.budget = std::min(cache_bytes, pass_bytes),
+            .linked_ghosts = abacus_links_ghosts(facts->standing) != 0,
+            .split_nodes = facts->census.split > 0,
+            .former = former};
 }
 
 template <int D> void Workspace<D>::forget_cache() {

@@ -43,6 +43,8 @@ template <int D> struct Workspace {
     };
 
     bool has_simplices() const { return facts->census.vertices > 0; }
+    /// Vertices are listed in pages of their own: in a loaded mesh that is not Delaunay.
+    bool lists_vertices() const { return abacus_lists_vertices(facts->standing) != 0; }
     bool has_waiting() const { return facts->census.inserted < facts->census.staged; }
     /// Of all kinds.
     std::uint64_t simplices() const {
@@ -71,6 +73,8 @@ template <int D> struct Workspace {
     void count_repeated_taken(std::uint64_t taken);
     /// Erases all pages of a kind.
     void erase_pages(abacus_page_kind kind);
+    /// A cache for one pass over all simplex pages; `former`: see FormerAttributes.
+    CacheOptions pass_options(const FormerAttributes &former) const;
     /// Starts over without a triangulation.
     void forget_simplices();
     /// Drops the cache, all of whose pages are written. The next one takes at most `budget` bytes.

@@ -79,6 +79,9 @@ public:
 
     using Blocks::allot, Blocks::block_of, Blocks::counters;
 
+    /// Before anything is loaded: pages of which a vertex gets other values will be written.
+    void give_other_values(OtherValues<D> &values) { other_values_ = &values; }
+
     // ---- Topology ----------------------------------------------------------
 
     const Simplex<D> &simplex(Handle h) const { return slots_[h]; }
@@ -236,6 +239,8 @@ public:
             const Link link = slots_[from].link[i];
             if (is_absent(link))
                 visible_[visible_facet(link)].owner = make_link(to, i);
+            else if (link_simplex(link) == from) // a loose ridge
+                slots_[to].link[i] = make_link(to, i);
             else
                 slots_[link_simplex(link)].link[link_facet(link)] = make_link(to, i);
         }
@@ -338,9 +343,10 @@ private:
     InnerLinks<D> inner_links_;
     PageWriter<D> writer_;
     Border border_;
-    Arena<VertexIndex> left_;      // border vertices of the blocks evicted together
-    Arena<std::uint32_t> uses_;    // of the vertices of the page being loaded
-    Arena<double> values_;         // attributes of a vertex
+    Arena<VertexIndex> left_;   // border vertices of the blocks evicted together
+    Arena<std::uint32_t> uses_; // of the vertices of the page being loaded
+    Arena<double> values_;      // attributes of a vertex
+    OtherValues<D> *other_values_ = nullptr;
     Arena<std::uint64_t> codes_;   // of the vertices of a page
     Arena<std::uint32_t> guesses_; // entries of the border's facets among the visible ones, perhaps
 };

@@ -94,6 +94,8 @@ template <int D> void Cache<D>::load_vertices() {
     for (int n = 0; n < view_.vertices(); ++n) {
         const Point<D> &p = view_.point(n);
         read_attributes(n);
+        if (other_values_ != nullptr)
+            blocks_[border_.block].dirty |= other_values_->give(p, view_.id(n), values_.data());
         VertexIndex v =
             border_.has_vertex[n] ? vertices_.find_shared(p, view_.id(n)) : infinite_vertex;
         if (v == infinite_vertex) {

@@ -1,5 +1,8 @@
-// Pages that are left from when vertices had other attributes in them.
+// Attributes of vertices that change as their pages are loaded: pages that are left from when
+// vertices had other ones, and other values for some vertices.
 #pragma once
+
+#include "geometry/point.hpp"
 
 #include <cstdint>
 #include <limits>
@@ -20,6 +23,16 @@ inline double value_from(std::uint32_t source, const double *values) {
 struct FormerAttributes {
     int count = -1; ///< of such a page; negative: there are none
     std::span<const std::uint32_t> source{};
+};
+
+/// Gives vertices other values as their pages are loaded, so that all pages with a vertex agree.
+template <int D> class OtherValues {
+public:
+    /// Changes the values of a vertex; false if it keeps them.
+    virtual bool give(const Point<D> &p, std::int64_t id, double *values) = 0;
+
+protected:
+    ~OtherValues() = default;
 };
 
 } // namespace abacus

@@ -3,6 +3,8 @@
 #include "blocks/counters.hpp"
 #include "octree/outside.hpp"
 
+#include <algorithm>
+#include <bit>
 #include <limits>
 #include <optional>
 
@@ -140,19 +142,23 @@ template <int D> void Growth<D>::to_balance(int across, abacus_header &header) {
     read(octants, header);
     octants.rewind();
     balance<D>(host_, octants, std::min(across, D), memory_, balanced);
-    rewrite(balanced, header);
+    rewrite(balanced, header, [](const Octant<D> &) {});
 }
 
 template <int D>
-void Growth<D>::grow(SplitOctants<D> &octants, SplitOctants<D> &wanted, abacus_header &header) {
+template <class Visit>
+void Growth<D>::grow(SplitOctants<D> &octants, SplitOctants<D> &wanted, abacus_header &header,
+                     Visit visit) {
     SplitOctants<D> united(host_);
     octants.rewind();
     wanted.rewind();
     unite(octants, wanted, united);
-    rewrite(united, header);
+    rewrite(united, header, visit);
 }
 
-template <int D> void Growth<D>::rewrite(SplitOctants<D> &octants, abacus_header &header) {
+template <int D>
+template <class Visit>
+void Growth<D>::rewrite(SplitOctants<D> &octants, abacus_header &header, Visit visit) {
     const std::uint64_t all = 1 + (Octant<D>::children - 1) * octants.size();
     octants.rewind();
     pacer_.begin(ABACUS_PHASE_FLUSHING, all);
@@ -181,6 +187,7 @@ template <int D> void Growth<D>::rewrite(SplitOctants<D> &octants, abacus_header
                 // pages.
                 while (leaf.code >= before.upper()) turn_page();
                 writer.add(leaf, values, !(leaf == old));
+                visit(leaf);
                 ++leaves;
             } while (leaf.end() < old.end());
             header.counters.deleted += !(leaf == old);
@@ -194,13 +201,54 @@ template <int D> void Growth<D>::rewrite(SplitOctants<D> &octants, abacus_header
 
 // ---- Sizes ---------------------------------------------------------------------
 
+/// Counts the leaves that are longer than a size that was given for a place in them: a thin layer
+/// that a large octant has met may lie between the places of smaller ones.
+template <int D> class Growth<D>::LongLeaves {
+public:
+    explicit LongLeaves(Growth &growth)
+        : growth_(growth), small_(growth.host_, 2, 1, growth.memory_ / 2) {}
+
+    /// A place in an octant of this level that is split. A leaf there is half as long, or less.
+    void add(const Point<D> &place, int level, double size) {
+        Cell<D> cell;
+        if (!(growth_.grid_.edge(level + 1) > size) || !growth_.grid_.find(place, cell)) return;
+        std::uint64_t *const record = small_.add();
+        record[0] = morton<D>(cell);
+        record[1] = std::bit_cast<std::uint64_t>(size);
+    }
+    void end() {
+        small_.finish();
+        next_ = small_.next();
+    }
+    /// The next leaf along the curve.
+    void see(const Octant<D> &leaf) {
+        bool is_longer = false;
+        for (; next_ != nullptr && next_[0] < leaf.end(); next_ = small_.next())
+            is_longer |= growth_.grid_.edge(leaf.level) > std::bit_cast<double>(next_[1]);
+        count_ += is_longer;
+    }
+    std::uint64_t count() {
+        small_.close();
+        return count_;
+    }
+
+private:
+    Growth &growth_;
+    RecordSort small_; // cell of a place, size
+    const std::uint64_t *next_ = nullptr;
+    std::uint64_t count_ = 0;
+};
+
 /// Asks for the sizes of octants, many at once, and collects the octants to split.
 template <int D> class Growth<D>::Asker {
 public:
-    Asker(Growth &growth, abacus_octree_sizes sizes, void *context, SplitOctants<D> &wanted)
-        : growth_(growth), ask_(sizes), context_(context), wanted_(wanted), codes_(growth.host_),
-          centers_(growth.host_), edges_(growth.host_), sizes_(growth.host_) {
-        centers_.resize(D * at_once);
+    Asker(Growth &growth, abacus_octree_sizes sizes, void *context, int samples,
+          SplitOctants<D> &wanted, LongLeaves &longer)
+        : growth_(growth), ask_(sizes), context_(context), samples_(samples), wanted_(wanted),
+          longer_(longer), codes_(growth.host_), places_(growth.host_), edges_(growth.host_),
+          sizes_(growth.host_) {
+        for (int i = 0; i < D; ++i) each_ *= static_cast<std::size_t>(samples);
+        places_.resize(D * at_once);
         edges_.resize(at_once);
         sizes_.resize(at_once);
         growth.pacer_.begin(ABACUS_PHASE_READING, 0);
@@ -212,55 +260,81 @@ public:
         split_ = &split;
     }
     void add(std::uint64_t code) {
+        const Box<D> box = growth_.grid_.box({code, level_});
+        for (std::size_t k = 0; k < each_; ++k, ++count_) {
+            std::size_t number = k;
+            for (int i = 0; i < D; ++i, number /= samples_) {
+                const double share = static_cast<double>(2 * (number % samples_) + 1) /
+                                     static_cast<double>(2 * samples_);
+                places_[i * at_once + count_] =
+                    box.lower[i] + (box.upper[i] - box.lower[i]) * share;
+            }
+            edges_[count_] = growth_.grid_.edge(level_);
+        }
         codes_.push_back(code);
-        if (codes_.size() == at_once) ask();
+        if (count_ + each_ > at_once) ask();
     }
     /// The level has no more octants.
     void ask();
 
 private:
-    static constexpr std::size_t at_once = 4096;
+    static constexpr std::size_t at_once = 4096; // places
+    static_assert(ABACUS_MAX_SAMPLES * ABACUS_MAX_SAMPLES * ABACUS_MAX_SAMPLES <= at_once);
+
+    void split(std::size_t octant);
 
     Growth &growth_;
     abacus_octree_sizes ask_;
     void *context_;
+    const std::size_t samples_;
     SplitOctants<D> &wanted_;
+    LongLeaves &longer_;
+    std::size_t each_ = 1, count_ = 0; // places of an octant, and in all
     Arena<std::uint64_t> codes_;
-    Arena<double> centers_, edges_, sizes_; // centers_ axis by axis
+    Arena<double> places_, edges_, sizes_; // places_ axis by axis
     int level_ = 0;
     RecordSpool *split_ = nullptr;
     std::uint64_t asked_ = 0;
 };
 
+template <int D> void Growth<D>::Asker::split(std::size_t octant) {
+    wanted_.add(level_, codes_[octant]);
+    *split_->add() = codes_[octant];
+    for (std::size_t at = octant * each_; at < (octant + 1) * each_; ++at) {
+        Point<D> place;
+        for (int i = 0; i < D; ++i) place[i] = places_[i * at_once + at];
+        longer_.add(place, level_, sizes_[at]);
+    }
+}
+
 template <int D> void Growth<D>::Asker::ask() {
     const std::size_t n = codes_.size();
     if (n == 0) return;
-    const double *centers[D];
-    for (int i = 0; i < D; ++i) centers[i] = centers_.data() + i * at_once;
+    const double *places[D];
+    for (int i = 0; i < D; ++i) places[i] = places_.data() + i * at_once;
+    host::require(ask_(context_, count_, places, edges_.data(), sizes_.data()));
     for (std::size_t k = 0; k < n; ++k) {
-        const Point<D> center = growth_.grid_.center({codes_[k], level_});
-        for (int i = 0; i < D; ++i) centers_[i * at_once + k] = center[i];
-        edges_[k] = growth_.grid_.edge(level_);
+        const double *const sizes = sizes_.data() + k * each_;
+        if (std::any_of(sizes, sizes + each_,
+                        [&](double size) { return edges_[k * each_] > size; }))
+            split(k);
     }
-    host::require(ask_(context_, n, centers, edges_.data(), sizes_.data()));
-    for (std::size_t k = 0; k < n; ++k)
-        if (edges_[k] > sizes_[k]) {
-            wanted_.add(level_, codes_[k]);
-            *split_->add() = codes_[k];
-        }
     codes_.clear();
+    count_ = 0;
     growth_.pacer_.reached(asked_ += n);
 }
 
 template <int D>
-void Growth<D>::to_sizes(abacus_octree_sizes sizes, void *context, abacus_header &header) {
+std::uint64_t Growth<D>::to_sizes(abacus_octree_sizes sizes, void *context, int samples,
+                                  abacus_header &header) {
     places_.close();
     SplitOctants<D> octants(host_), leaves(host_), wanted(host_);
     read(octants, header, [&](const Octant<D> &leaf) {
         if (leaf.level < levels_) leaves.add(leaf.level, leaf.code);
     });
     leaves.rewind();
-    Asker asker(*this, sizes, context, wanted);
+    LongLeaves longer(*this);
+    Asker asker(*this, sizes, context, samples, wanted, longer);
     // Level by level: the leaves of the octree, and the children of octants that were split.
     std::array<std::optional<RecordSpool>, 2> splits; // of even and odd levels
     splits[1].emplace(host_, 1);
@@ -291,7 +365,9 @@ void Growth<D>::to_sizes(abacus_octree_sizes sizes, void *context, abacus_header
     }
     for (std::optional<RecordSpool> &split : splits)
         if (split) split->close();
-    grow(octants, wanted, header);
+    longer.end();
+    grow(octants, wanted, header, [&](const Octant<D> &leaf) { longer.see(leaf); });
+    return longer.count();
 }
 
 template void create_root<2>(const Host &, abacus_header &);

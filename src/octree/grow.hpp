@@ -33,8 +33,11 @@ public:
     void to_levels(abacus_header &header);
     /// At most so many of the places that were added in a leaf, unless it is as fine as may be.
     void to_points(std::uint64_t most, abacus_header &header);
-    /// Leaves are no longer than `sizes` tells; see abacus_octree_sizes.
-    void to_sizes(abacus_octree_sizes sizes, void *context, abacus_header &header);
+    /// Leaves are no longer than `sizes` tells for `samples` places along each axis; see
+    /// abacus_octree_growth_sizes. Returns how many are longer than a size told for a place in
+    /// them.
+    std::uint64_t to_sizes(abacus_octree_sizes sizes, void *context, int samples,
+                           abacus_header &header);
     /// Neighbours across faces (1), edges (2) and corners (D) differ by a level at most.
     void to_balance(int across, abacus_header &header);
 
@@ -44,6 +47,7 @@ private:
     static constexpr std::uint64_t leaves_a_place = 256;
 
     class Asker;
+    class LongLeaves;
 
     /// Splits the leaves at the places through a cache.
     void split_in_place(abacus_header &header);
@@ -62,10 +66,17 @@ private:
     void read(SplitOctants<D> &octants, abacus_header &header) {
         read(octants, header, [](const Octant<D> &) {});
     }
-    /// Grows the octree, of which this set is split, by another one; closes both.
-    void grow(SplitOctants<D> &octants, SplitOctants<D> &wanted, abacus_header &header);
+    /// Grows the octree, of which this set is split, by another one; closes both. `visit` gets its
+    /// new leaves.
+    template <class Visit>
+    void grow(SplitOctants<D> &octants, SplitOctants<D> &wanted, abacus_header &header,
+              Visit visit);
+    void grow(SplitOctants<D> &octants, SplitOctants<D> &wanted, abacus_header &header) {
+        grow(octants, wanted, header, [](const Octant<D> &) {});
+    }
     /// The leaves are those of a set that has all that are split now; closes it.
-    void rewrite(SplitOctants<D> &octants, abacus_header &header);
+    template <class Visit>
+    void rewrite(SplitOctants<D> &octants, abacus_header &header, Visit visit);
 
     const Host &host_;
     Pacer pacer_;

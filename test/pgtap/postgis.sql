@@ -289,6 +289,33 @@ TRUNCATE wells;
 SELECT is((SELECT count(*) FROM abacus_vertices('followed')), 0::bigint, 'TRUNCATE');
 SELECT throws_ok($$ SELECT abacus_track('followed', 'wells', '{id,geom}') $$, '2202E', 'columns has 2 elements, but points of the mesh have 3', 'an attribute is missing');
 SELECT throws_ok($$ SELECT abacus_track('followed', 'wells', '{id,height,geom}') $$, '2202E', 'columns has 3 elements, but points of the mesh have 4', 'a geometry elsewhere');
+-- The z of a geometry is an attribute: of its own accord where one column is missing, and on wish.
+CREATE TABLE lidar (id bigint PRIMARY KEY, geom geometry(PointZ, 2154), class int);
+INSERT INTO lidar SELECT i, ST_SetSRID(ST_MakePoint((i * 37) % 101, (i * 53) % 97, i / 4.0), 2154), i % 3 FROM generate_series(1, 200) AS i;
+SELECT abacus_create('ground', 2, '{height,class}'), abacus_create('heights', 2, '{z}'), abacus_create('two', 2, '{height,depth}'), abacus_create('flat_heights', 2, '{z}');
+SELECT is(abacus_track('ground', 'lidar'), 200::bigint, 'a table with PointZ is tracked');
+SELECT is(abacus_track('heights', 'lidar', '{id,geom,geom}', deferred => true), 200::bigint, 'its z by name');
+CREATE FUNCTION pg_temp.z_agree(what text) RETURNS SETOF text LANGUAGE plpgsql AS $$
+BEGIN
+    SET CONSTRAINTS ALL IMMEDIATE;
+    RETURN NEXT is_empty('SELECT id, ST_X(geom), ST_Y(geom), ARRAY[ST_Z(geom), class] FROM lidar WHERE geom IS NOT NULL EXCEPT SELECT id, x, y, attributes FROM abacus_vertices(''ground'')', 'z and class: ' || what);
+    RETURN NEXT is_empty('SELECT id, ST_X(geom), ST_Y(geom), ARRAY[ST_Z(geom)] FROM lidar WHERE geom IS NOT NULL EXCEPT SELECT id, x, y, attributes FROM abacus_vertices(''heights'')', 'z: ' || what);
+    RETURN NEXT is((SELECT count(*) FROM abacus_vertices('ground')), (SELECT count(*) FROM lidar WHERE geom IS NOT NULL), 'no more: ' || what);
+    SET CONSTRAINTS ALL DEFERRED;
+END $$;
+SELECT * FROM pg_temp.z_agree('at first');
+UPDATE lidar SET geom = ST_Translate(geom, 0, 0, 5) WHERE id % 3 = 0;
+SELECT * FROM pg_temp.z_agree('z alone changes');
+UPDATE lidar SET class = 9 WHERE id % 5 = 0;
+SELECT * FROM pg_temp.z_agree('another attribute');
+UPDATE lidar SET geom = NULL WHERE id % 7 = 0;
+DELETE FROM lidar WHERE id % 11 = 0;
+INSERT INTO lidar SELECT i, ST_SetSRID(ST_MakePoint(i * 0.1, i * 0.03, -i), 2154), 2 FROM generate_series(1001, 1050) AS i;
+SELECT * FROM pg_temp.z_agree('rows come and go');
+SELECT is(abacus_track('ground', 'lidar', synchronize => true), (SELECT count(*) FROM lidar WHERE geom IS NOT NULL), 'it is in step with the table');
+SELECT throws_ok($$ SELECT abacus_track('two', 'lidar') $$, '42703', 'column "height" of table "lidar" does not exist', 'one z does not make two attributes');
+SELECT throws_ok($$ SELECT abacus_track('heights', 'lidar', '{id,geom,ST_Z(geom)}') $$, '42703', 'column "ST_Z(geom)" of table "lidar" does not exist', 'an expression is no column');
+SELECT throws_ok($$ SELECT abacus_insert('flat_heights', 'SELECT id, geom, geom FROM lidar') $$, '42804', 'column 3 (z) of the source query has type geometry', 'queries have expressions for that');
 CREATE TABLE pairs (id int, a geometry, b geometry);
 SELECT abacus_create('paired', 2);
 SELECT throws_ok($$ SELECT abacus_track('paired', 'pairs') $$, '42703', 'column "x" of table "pairs" does not exist', 'of two geometries one must be named');

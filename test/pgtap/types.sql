@@ -38,7 +38,7 @@ INSERT INTO wanted VALUES
     ('abacus_octree_elements', 'octree regclass, OUT element bigint, OUT nodes bigint[], OUT code bigint, OUT level integer, OUT attributes double precision[]', 'SETOF record', 's', true, 's'),
     ('abacus_octree_from_points', 'octree regclass, query text, most_in_leaf integer', 'bigint', 'v', true, 'u'),
     ('abacus_octree_from_rows', 'octree regclass, query text', 'bigint', 'v', true, 'u'),
-    ('abacus_octree_from_size', 'octree regclass, query text', 'bigint', 'v', true, 'u'),
+    ('abacus_octree_from_size', 'octree regclass, query text, samples integer DEFAULT 1', 'bigint', 'v', true, 'u'),
     ('abacus_octree_interpolate', 'octree regclass, query text, attributes text[] DEFAULT NULL::text[], OUT id bigint, OUT "values" double precision[]', 'SETOF record', 'v', false, 'u'),
     ('abacus_octree_interpolate', 'octree regclass, query text, attributes text, OUT id bigint, OUT "values" double precision[]', 'SETOF record', 'v', false, 'u'),
     ('abacus_octree_interpolate', 'octree regclass, x double precision, y double precision, attribute text DEFAULT NULL::text', 'double precision', 's', false, 's'),

@@ -79,7 +79,7 @@ TYPED_TEST(OctreesGrown, are_as_fine_as_a_function_tells) {
     const Host h = octree.host->host();
     SizesAsked sizes;
     Growth<D>(h, octree.header, StoredOctree<D>::memory)
-        .to_sizes(size_near_center<D>, &sizes, octree.header);
+        .to_sizes(size_near_center<D>, &sizes, 1, octree.header);
     for (bool done = false; !done;) {
         done = true;
         for (const Octant<D> &leaf : model.list()) {

@@ -38,7 +38,7 @@ TEST(QuakeOctree, has_the_earthquake_points_as_nodes) {
     const Host h = octree.host->host();
     {
         Growth<3> growth(h, octree.header, octree.memory);
-        growth.to_sizes(size_of, nullptr, octree.header);
+        growth.to_sizes(size_of, nullptr, 1, octree.header);
     }
     octree.balance(2);
     QuakePoints points(frequency, points_per_wavelength);

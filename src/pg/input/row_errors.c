@@ -152,6 +152,22 @@ row_tell_order(const RowPacker *packer, TupleDesc desc)
 						 packer->inputs > 1 + packer->coordinates ? ", then attributes" : "")));
 }
 
+/* The z of geometries is no attribute unless a query selects it. */
+void
+row_tell_z(const RowPacker *packer, TupleDesc desc)
+{
+	Form_pg_attribute column;
+
+	if (!row_has_geometry(packer) || packer->names.facts->form.dimension > 2)
+		return;
+	column = TupleDescAttr(desc, GEOMETRY_COLUMN);
+	if (geometry_typmod_has_z(column->atttypmod))
+		ereport(NOTICE,
+				(errmsg("the z of \"%s\" is left out", NameStr(column->attname)),
+				 errhint("Make a mesh with an attribute, and select ST_Z(%s), too.",
+						 quote_identifier(NameStr(column->attname)))));
+}
+
 /* A hint about a geometry that cannot be read here, or NULL. */
 static char *
 geometry_hint(const RowPacker *packer, const char *column, Oid type)

@@ -19,6 +19,7 @@ row_has_geometry(const RowPacker *packer)
 
 extern int	row_word(const RowPacker *packer, int column);
 extern void row_refuse_type(const RowPacker *packer, int column, TupleDesc desc);
+extern void row_tell_z(const RowPacker *packer, TupleDesc desc);
 extern void row_tell_order(const RowPacker *packer, TupleDesc desc);
 extern void row_refuse_count(const RowPacker *packer, TupleDesc desc);
 extern void row_refuse_value(const RowPacker *packer, const uint64 *point, int column, bool isnull);

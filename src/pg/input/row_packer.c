@@ -38,7 +38,7 @@ static const RowOrigin query_of_labels = {
 static const RowOrigin tracked_table = {
 	"the tracked table", "the statement", "Track other columns, generated ones for instance.",
 	"Track generated columns", "Set a coordinate to NULL in rows without a point.", false,
-	"mesh", "id", "An id", NULL, false, true, false
+	"mesh", "id", "An id", NULL, false, true, false, true
 };
 #define QUERY_OF_OCTANTS(geometry_hint) \
 	"the source query", "the source query", "Cast the column in the query.", \
@@ -67,6 +67,9 @@ pack_kind(const RowPacker *packer, int column, TupleDesc desc)
 
 	if (row_has_geometry(packer) && column == GEOMETRY_COLUMN)
 		return PACK_GEOMETRY;
+	if (packer->origin->takes_z && row_has_geometry(packer) && !is_id &&
+		attribute->atttypid == packer->geometry.type)
+		return PACK_Z;
 	switch (getBaseType(attribute->atttypid))
 	{
 		case INT2OID:
@@ -117,6 +120,7 @@ to_double(PackKind kind, Datum value)
 			return DatumGetFloat8(DirectFunctionCall1(numeric_float8_no_overflow, value));
 		case PACK_NULL:
 		case PACK_GEOMETRY:
+		case PACK_Z:
 			break;
 	}
 	pg_unreachable();
@@ -147,8 +151,8 @@ check_nulls(const RowPacker *packer, const TupleTableSlot *slot)
 			row_refuse_type(packer, i, slot->tts_tupleDescriptor);
 }
 
-/* Packs the coordinates of a row with a geometry. */
-static void
+/* Packs the coordinates of a row with a geometry; returns its z, NaN if it has none. */
+static double
 pack_geometry(RowPacker *packer, const TupleTableSlot *slot, uint64 *record)
 {
 	const char *what = psprintf("geometry of point " INT64_FORMAT, (int64) record[0]);
@@ -178,6 +182,7 @@ pack_geometry(RowPacker *packer, const TupleTableSlot *slot, uint64 *record)
 			row_refuse_value(packer, record, GEOMETRY_COLUMN, false);
 		record[1 + i] = bits(point.at[i]);
 	}
+	return point.has_z ? point.at[2] : NAN;
 }
 
 static bool
@@ -189,6 +194,7 @@ receive_row(TupleTableSlot *slot, DestReceiver *self)
 	int			coordinates_end = 1 + packer->coordinates;
 	int			first = packer->ids;
 	MemoryContext old = NULL;
+	double		z = NAN;
 
 	packer->row++;
 	slot_getsomeattrs(slot, packer->inputs);
@@ -205,14 +211,15 @@ receive_row(TupleTableSlot *slot, DestReceiver *self)
 	}
 	if (row_has_geometry(packer))
 	{
-		pack_geometry(packer, slot, point);
+		z = pack_geometry(packer, slot, point);
 		first = GEOMETRY_COLUMN + 1;
 		coordinates_end = first;
 	}
 	for (int i = first; i < packer->inputs; i++)
 	{
 		bool		isnull = slot->tts_isnull[i];
-		double		value = isnull ? NAN : to_double(packer->kinds[i], slot->tts_values[i]);
+		double		value = packer->kinds[i] == PACK_Z ? z : isnull ? NAN
+			: to_double(packer->kinds[i], slot->tts_values[i]);
 
 		if (unlikely(i < coordinates_end && !isfinite(value)))
 			row_refuse_value(packer, point, i, isnull);
@@ -275,6 +282,8 @@ create(TupleDesc desc, abacus_names names, const RowOrigin *origin, int ids,
 	}
 	if (origin != &tracked_table)
 		row_tell_order(packer, desc);
+	if (takes_srid && attributes == 0 && !more && origin == &query_of_points)
+		row_tell_z(packer, desc);
 	packer->points = palloc(batch * columns * sizeof(uint64));
 	packer->scratch = AllocSetContextCreate(CurrentMemoryContext, "Abacus row conversion",
 											ALLOCSET_DEFAULT_SIZES);

@@ -18,7 +18,8 @@ typedef enum PackKind
 	PACK_INT8,
 	PACK_NUMERIC,
 	PACK_NULL,					/* of an unreadable type: NULLs only */
-	PACK_GEOMETRY				/* all coordinates at once */
+	PACK_GEOMETRY,				/* all coordinates at once */
+	PACK_Z						/* z of the geometry, as an attribute */
 } PackKind;
 
 /* The source of rows, for messages. */
@@ -37,6 +38,7 @@ typedef struct RowOrigin
 	bool		by_number;		/* a row is identified by its number, not its id */
 	bool		takes_geometry; /* a geometry may follow the first column */
 	bool		makes_id;		/* rows without an id can be given one in the query */
+	bool		takes_z;		/* the geometry again is an attribute: its z */
 } RowOrigin;
 
 /* Kinds of rows for octrees. */

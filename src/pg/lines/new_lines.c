@@ -46,7 +46,7 @@ new_lines_check_mesh(const Change *change)
 		ereport(ERROR,
 				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
 				 errmsg("%s", abacus_delaunay_clause(facts->standing)),
-				 errdetail("%s The mesh was loaded by abacus_load() and can be read, but not changed.",
+				 errdetail("%s The mesh was loaded by abacus_load() and cannot have other points.",
 						   abacus_delaunay_reason(facts->standing)),
 				 errhint("Triangulate its vertices anew, by abacus_load() with retriangulate => true or by "
 						 "abacus_triangulate().")));

@@ -46,6 +46,18 @@ shape_check_room(const abacus_facts *facts)
 										 "abacus_drop_attribute(), or keep them in another mesh.")));
 }
 
+/* An error if a mesh with split nodes cannot have so many attributes. */
+void
+shape_check_split(uint32 attributes)
+{
+	if (attributes > ABACUS_MAX_PAGE_ATTRIBUTES)
+		ereport(ERROR,
+				(errcode(ERRCODE_PROGRAM_LIMIT_EXCEEDED),
+				 errmsg("a mesh with split nodes can have at most %u attributes",
+						ABACUS_MAX_PAGE_ATTRIBUTES),
+				 errhint("Name only the attributes that are needed, and keep the others in a table by id.")));
+}
+
 /* Adds one attribute. */
 void
 shape_attribute(abacus_header *header, const char *name)

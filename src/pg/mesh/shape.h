@@ -11,6 +11,7 @@
 extern void shape_dimension(abacus_form *form, int32 dimension);
 extern void shape_check_name(const char *name);
 extern void shape_check_room(const abacus_facts *facts);
+extern void shape_check_split(uint32 attributes);
 extern void shape_attribute(abacus_header *header, const char *name);
 extern Datum *shape_names(ArrayType *names, const char *what, int *count);
 extern Datum *shape_numbers(ArrayType *numbers, const char *what, int *count);

@@ -18,6 +18,13 @@ extern Oid	postgis_geometry(void);
 extern bool postgis_owns(Oid catalogue, Oid object);
 extern bool postgis_owns_function(Oid function);
 
+/* Whether a column with this modifier of geometry has only geometries with z. */
+static inline bool
+geometry_typmod_has_z(int32 typmod)
+{
+	return typmod >= 0 && (typmod & 2) != 0;
+}
+
 extern bool geometry_is_type(Oid type);
 extern const char *geometry_type_name(Oid type);
 extern char *geometry_function(Oid type, const char *name);

@@ -79,16 +79,49 @@ tracked_only_geometry(Relation table)
 	return found;
 }
 
-/* The names in the mesh; for a table without x, its geometry replaces the coordinates. */
+/* Whether the z of a geometry column can be an attribute: its type says that all have one. */
+static bool
+has_z(Relation table, const char *geometry)
+{
+	AttrNumber	number = get_attnum(RelationGetRelid(table), geometry);
+
+	return geometry_typmod_has_z(TupleDescAttr(RelationGetDescr(table), number - 1)->atttypmod);
+}
+
+/* The only attribute of a mesh that a table has no column for; NULL if there is none, or several. */
+static const char *
+only_missing_attribute(abacus_names mesh, Relation table)
+{
+	const char *missing = NULL;
+
+	for (uint32 i = 0; i < mesh.facts->columns.attributes; i++)
+		if (!OidIsValid(column_type(table, mesh.of[i])))
+		{
+			if (missing != NULL)
+				return NULL;
+			missing = mesh.of[i];
+		}
+	return missing;
+}
+
+/*
+ * The names in the mesh; for a table without x, its geometry replaces the coordinates. In the plane
+ * its z is the attribute without a column: the name of the geometry comes again.
+ */
 static List *
 default_names(abacus_names mesh, Relation table)
 {
 	char	   *geometry = OidIsValid(column_type(table, row_packer_column(mesh, 1))) ? NULL
 		: tracked_only_geometry(table);
+	const char *in_z = geometry == NULL || mesh.facts->form.dimension > 2 || !has_z(table, geometry)
+		? NULL : only_missing_attribute(mesh, table);
 	List	   *names = NIL;
 
 	for (int i = 0; i < (int) (1 + mesh.facts->form.dimension + mesh.facts->columns.attributes); i++)
-		if (geometry == NULL || i == 0 || i > (int) mesh.facts->form.dimension)
+		if (in_z != NULL && i > (int) mesh.facts->form.dimension &&
+			strcmp(row_packer_column(mesh, i), in_z) == 0)
+			names = lappend(names, geometry);
+		else if (geometry == NULL || i == 0 || i > (int) mesh.facts->form.dimension)
 			names = lappend(names, pstrdup(row_packer_column(mesh, i)));
 		else if (i == 1)
 			names = lappend(names, geometry);
@@ -151,7 +184,8 @@ column_names(ArrayType *given, abacus_names mesh, Relation table)
 					 errmsg("column \"%s\" of table \"%s\" does not exist",
 							(char *) lfirst(cell), RelationGetRelationName(table)),
 					 errhint("Name the columns with the argument columns: id, coordinates, "
-							 "attributes.")));
+							 "attributes. A geometry may stand for the coordinates, and once more "
+							 "for an attribute, which is then its z.")));
 		tracked_check_column(table, number);
 	}
 	return names;
@@ -219,6 +253,21 @@ append_coordinates(StringInfo query, Oid type, const char *column, int dimension
 						 quote_identifier(column));
 }
 
+/* Whether an attribute is the z of the geometry. */
+static bool
+is_z(Relation table, List *columns, int number)
+{
+	return number > 1 && OidIsValid(geometry_of(table, columns)) &&
+		strcmp(list_nth(columns, number), lsecond(columns)) == 0;
+}
+
+static char *
+z_of(Relation table, List *columns)
+{
+	return psprintf("%s(t.%s)", geometry_function(geometry_of(table, columns), "st_z"),
+					quote_identifier(lsecond(columns)));
+}
+
 /* A column of a point as the mesh stores it. */
 static void
 append_packed(StringInfo query, Relation table, List *columns, int number, int dimension)
@@ -234,7 +283,8 @@ append_packed(StringInfo query, Relation table, List *columns, int number, int d
 		appendStringInfoString(query, as_packed(table, name));
 	else
 		appendStringInfo(query, "CASE WHEN (%1$s) OPERATOR(pg_catalog.<>) "
-						 "'NaN'::pg_catalog.float8 THEN %1$s END", as_packed(table, name));
+						 "'NaN'::pg_catalog.float8 THEN %1$s END",
+						 is_z(table, columns, number) ? z_of(table, columns) : as_packed(table, name));
 }
 
 static char *
@@ -255,6 +305,8 @@ select_points(Relation table, List *columns, int dimension, bool packed, const c
 		appendStringInfoString(&query, i == 0 ? "SELECT " : ", ");
 		if (packed)
 			append_packed(&query, table, columns, i, dimension);
+		else if (is_z(table, columns, i))
+			appendStringInfoString(&query, z_of(table, columns));
 		else
 			appendStringInfo(&query, "t.%s", quote_identifier(list_nth(columns, i)));
 	}

@@ -56,7 +56,11 @@ check_kind(Relation table)
 		ereport(ERROR,
 				(errcode(ERRCODE_WRONG_OBJECT_TYPE),
 				 errmsg("cannot track \"%s\"", RelationGetRelationName(table)),
-				 errdetail("Only tables have triggers that see all changes.")));
+				 errdetail("Only tables have triggers that see all changes."),
+				 kind != RELKIND_VIEW && kind != RELKIND_MATVIEW ? 0
+				 : errhint("Track the table below the view. Name its columns with the argument columns; "
+						   "what the view computes can be a column of the table that is GENERATED "
+						   "ALWAYS AS (...) STORED, NULL where the view has no row.")));
 	if (root != RelationGetRelid(table))
 		ereport(ERROR,
 				(errcode(ERRCODE_WRONG_OBJECT_TYPE),

@@ -1,7 +1,8 @@
 /*
  * fn_attribute_change.c: abacus_add_attribute and abacus_drop_attribute.
  *
- * The attributes of vertices are rewritten; the simplices stay as they are, with their labels. A
+ * The attributes of vertices are rewritten; the simplices stay as they are, with their labels. So
+ * loaded meshes that are not Delaunay can have other attributes, too. A
  * table that a mesh follows has a column for each attribute, so such a mesh keeps its attributes.
  * So does a mesh that its owner, or the caller, has published. Foreign tables of others do not
  * prevent dropping an attribute: they report that it is gone when they are read.
@@ -66,6 +67,8 @@ abacus_sql_add_attribute(PG_FUNCTION_ARGS)
 	count = names.facts->columns.attributes;
 	header_require_new_name(names, name);
 	shape_check_room(names.facts);
+	if (names.facts->census.split > 0)
+		shape_check_split(count + 1);
 	source = palloc((count + 1) * sizeof(uint32));
 	for (uint32 i = 0; i < count; i++)
 		source[i] = i;

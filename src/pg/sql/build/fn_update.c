@@ -28,6 +28,7 @@ shape_of_rows(const Source *source, const abacus_header *header, uint32 *attribu
 
 	abacus_header_copy(shape, header);
 	shape->facts.columns.attributes = 0;
+	shape->facts.standing = ABACUS_DELAUNAY;	/* of rows, which are in no triangulation */
 	if (columns <= first)
 		ereport(ERROR,
 				(errcode(ERRCODE_DATATYPE_MISMATCH),
@@ -59,7 +60,11 @@ refuse_missing(const Change *change, const abacus_named_place *missing)
 			 errmsg("mesh \"%s\" has no point at the place of point " INT64_FORMAT ", (%s)",
 					RelationGetRelationName(mesh_pages(change->writer.host)->simplices.heap),
 					missing->id, place.data),
-			 errhint("Points keep their coordinates. Add points with abacus_insert().")));
+			 change->writer.header->facts.census.split > 0
+			 ? errhint("Name vertices by their ids, too: some of the mesh share a place.")
+			 : abacus_is_editable(change->writer.header->facts.standing)
+			 ? errhint("Points keep their coordinates. Add points with abacus_insert().")
+			 : errhint("Points keep their coordinates.")));
 }
 
 /* Changes the points of a prepared query; returns how many rows it had. */

@@ -145,7 +145,7 @@ tell(abacus_delaunay delaunay, bool retriangulated, bool labelled, bool marked)
 	else
 		ereport(NOTICE,
 				(errmsg("%s", abacus_delaunay_clause(delaunay)),
-				 errdetail("%s The mesh can be read, but not changed.", reason),
+				 errdetail("%s The mesh can be read, and have other attributes, but not other points.", reason),
 				 errhint("Use retriangulate => true for Abacus' own triangulation of the vertices, "
 						 "which can be changed.")));
 }
@@ -213,12 +213,8 @@ abacus_sql_load(PG_FUNCTION_ARGS)
 			shape_attribute(header, source_column_name(&vertices, i));
 	for (int i = 0; i < label_count; i++)
 		shape_label(header, TextDatumGetCString(labels[i]));
-	if (split_nodes && header->facts.columns.attributes > ABACUS_MAX_PAGE_ATTRIBUTES)
-		ereport(ERROR,
-				(errcode(ERRCODE_PROGRAM_LIMIT_EXCEEDED),
-				 errmsg("a mesh with split nodes can have at most %u attributes",
-						ABACUS_MAX_PAGE_ATTRIBUTES),
-				 errhint("Name only the attributes that are needed, and keep the others in a table by id.")));
+	if (split_nodes)
+		shape_check_split(header->facts.columns.attributes);
 	shape_domain(&header->facts.form, PG_ARGISNULL(4) ? NULL : PG_GETARG_ARRAYTYPE_P(4),
 				 PG_ARGISNULL(5) ? NULL : PG_GETARG_ARRAYTYPE_P(5));
 
