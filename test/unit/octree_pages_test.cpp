@@ -94,7 +94,8 @@ TYPED_TEST(OctreePages, count_what_they_do_and_tell_how_far_they_are) {
     tells({ABACUS_PHASE_LOCATING});
     SizesAsked sizes;
     const Host h = octree.host->host();
-    Growth<D>(h, octree.header, octree.memory).to_sizes(size_near_center<D>, &sizes, 1, octree.header);
+    Growth<D>(h, octree.header, octree.memory)
+        .to_sizes(size_near_center<D>, &sizes, 1, octree.header);
     tells({ABACUS_PHASE_SCANNING, ABACUS_PHASE_READING, ABACUS_PHASE_FLUSHING});
     octree.merge({{}});
     OctreeLoad<D> load(h, octree.header, octree.memory);
