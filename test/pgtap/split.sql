@@ -99,8 +99,9 @@ SELECT is(abacus_load('plane_again', 'SELECT id, x, y, attributes[1] AS value FR
           (SELECT count(*) FROM plane_element), 'out and in again');
 SELECT set_eq($$ SELECT code, v0, v1, v2 FROM abacus_simplices('plane_again') $$, $$ SELECT code, v0, v1, v2 FROM abacus_simplices('plane_split') $$, 'the same');
 SELECT throws_ok($$ SELECT abacus_insert('plane_split', 'SELECT 1, 2, 3, 4') $$, '55000', NULL, 'it cannot be changed');
-SELECT throws_ok($$ SELECT abacus_add_attribute('plane_split', 'more') $$, '55000', NULL, 'nor get attributes');
-SELECT throws_ok($$ SELECT abacus_voronoi('plane_split') $$, '55000', NULL, 'nor has it Voronoi cells');
+SELECT is(abacus_update('plane_split', 'SELECT id, x, y, value FROM plane_node'), (SELECT count(*) FROM plane_node), 'but it takes values');
+SELECT is_empty($$ SELECT * FROM abacus_check('plane_split') $$, 'and is sound');
+SELECT throws_ok($$ SELECT abacus_voronoi('plane_split') $$, '55000', NULL, 'it has no Voronoi cells');
 -- If a header counts another number of split nodes, it is damaged: the word before the name of the attribute.
 UPDATE plane_again SET page = abacus_page_from_bytea(set_byte(b, at, get_byte(b, at) - 1))
 FROM (SELECT abacus_page_to_bytea(page) AS b, length(abacus_page_to_bytea(page)) - 72 AS at FROM plane_again WHERE code < 0) AS h WHERE code < 0;
