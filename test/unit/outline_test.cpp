@@ -112,8 +112,8 @@ std::multiset<Facet<D>> border_by_hand(MeshOf<D> &mesh, const abacus_outline_kin
 template <int D> void expect_outlines(MeshOf<D> &mesh, std::initializer_list<double> sizes) {
     for (const double size : sizes) {
         SCOPED_TRACE(size);
-        std::vector<abacus_outline_kind> kinds{{size, 0, 0, 0}};
-        if (mesh.header.facts.standing == 0) kinds.push_back({0, 1, size * size, 0});
+        std::vector<abacus_outline_kind> kinds{{{size, 0}, 0, 0, 0}};
+        if (mesh.header.facts.standing == 0) kinds.push_back({{}, 1, size * size, 0});
         for (const abacus_outline_kind &kind : kinds) {
             const auto expected = border_by_hand<D>(mesh, kind);
             EXPECT_TRUE(facets_of<D>(read<D>(mesh, kind, little)) == expected);
@@ -186,9 +186,9 @@ TEST(Outlines, WithoutHolesAndWhatLiesInThem) {
     MeshOf<2> mesh(0);
     ASSERT_EQ(mesh.stage(number<2>(points)), ABACUS_OK);
     ASSERT_EQ(mesh.build(), ABACUS_OK);
-    const auto with = read<2>(mesh, {0, 1, 0.5, 0}, little);
+    const auto with = read<2>(mesh, {{}, 1, 0.5, 0}, little);
     EXPECT_EQ(with.back().ring, 8u); // four squares, three of them with a hole, and one elsewhere
-    const auto without = read<2>(mesh, {0, 1, 0.5, 1}, little);
+    const auto without = read<2>(mesh, {{}, 1, 0.5, 1}, little);
     ASSERT_EQ(without.back().ring, 2u);
     EXPECT_EQ(without.size(), 4u * 66 + 4 * 5);
 }
@@ -205,9 +205,9 @@ TEST(Outlines, WithoutCavitiesAndWhatLiesInThem) {
     MeshOf<3> mesh(0);
     ASSERT_EQ(mesh.stage(number<3>(points)), ABACUS_OK);
     ASSERT_EQ(mesh.build(), ABACUS_OK);
-    const auto with = facets_of<3>(read<3>(mesh, {0, 1, 0.75, 0}, little));
-    const auto without = facets_of<3>(read<3>(mesh, {0, 1, 0.75, 1}, little));
-    EXPECT_TRUE(without == facets_of<3>(read<3>(mesh, {0, 1, 0.75, 1}, 16 << 20)));
+    const auto with = facets_of<3>(read<3>(mesh, {{}, 1, 0.75, 0}, little));
+    const auto without = facets_of<3>(read<3>(mesh, {{}, 1, 0.75, 1}, little));
+    EXPECT_TRUE(without == facets_of<3>(read<3>(mesh, {{}, 1, 0.75, 1}, 16 << 20)));
     EXPECT_EQ(without.size(), 2u * 6 * (10 * 10 + 2 * 2)); // of the cube and of the one elsewhere
     EXPECT_GT(with.size(), without.size() + 2 * 6 * 2 * 2);
     EXPECT_TRUE(std::includes(with.begin(), with.end(), without.begin(), without.end()));
@@ -283,7 +283,7 @@ template <int D> void expect_alpha_shapes_of_cgal() {
     ASSERT_EQ(mesh.build(), ABACUS_OK);
     for (const double alpha : {0.0004, 0.002, 0.006, 0.02, 1.0}) {
         Sides<D> sides;
-        for (const Facet<D> &facet : facets_of<D>(read<D>(mesh, {0, 1, alpha, 0}, little)))
+        for (const Facet<D> &facet : facets_of<D>(read<D>(mesh, {{}, 1, alpha, 0}, little)))
             sides.insert(std::set<Point<D>>(facet.begin(), facet.end()));
         EXPECT_FALSE(alpha > 0.001 && sides.empty());
         EXPECT_TRUE(sides == cgal_alpha_shape(points, alpha)) << alpha;

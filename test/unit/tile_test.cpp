@@ -176,7 +176,7 @@ std::int64_t area_of(const std::vector<TilePoint> &ring) {
 TEST(VectorTile, HasTheTrianglesAndVerticesOfItsWindow) {
     const auto mesh = mesh_of(4000, 1);
     const abacus_tile tile = tile_at(10, 7.5, 46.5);
-    const ReadTile read = read_vector(*mesh, tile, {0, 100, 0});
+    const ReadTile read = read_vector(*mesh, tile, {0, 100, {}});
 
     std::map<std::array<double, 3>, double> found;
     for (const ReadFeature &f : read.at("triangles")) {
@@ -237,7 +237,7 @@ TEST(VectorTile, HasTheTrianglesAndVerticesOfItsWindow) {
 
 TEST(VectorTile, TrianglesFillTheWindow) {
     const auto mesh = mesh_of(4000, 1);
-    const ReadTile read = read_vector(*mesh, tile_at(10, 7.5, 46.5), {0, 0, 0});
+    const ReadTile read = read_vector(*mesh, tile_at(10, 7.5, 46.5), {0, 0, {}});
     double area = 0;
     for (const ReadFeature &f : read.at("triangles"))
         area += 0.5 * static_cast<double>(area_of(f.parts[0]));
@@ -258,7 +258,7 @@ TEST(VectorTile, ContoursOfTheGreatestValues) {
     const abacus_tile tile = tile_at(8, 7.5, 46.5);
     const double middle = ((7.5 + 180) / 360 * 256 - tile.x) * 4096;
     std::size_t lines = 0;
-    const ReadTile read = read_vector(mesh, tile, {0, 1e308, 0});
+    const ReadTile read = read_vector(mesh, tile, {0, 1e308, {}});
     for (const ReadFeature &f : read.at("contours")) {
         if (f.tags.at("value") != 0) continue;
         for (const auto &line : f.parts)
@@ -274,7 +274,7 @@ TEST(VectorTile, RingsHaveNoCornerTwiceInSuccession) {
     const auto mesh = mesh_of(1900, 0.1);
     std::size_t cut = 0;
     for (int zoom = 7; zoom <= 10; ++zoom) {
-        const ReadTile read = read_vector(*mesh, tile_at(zoom, 7.05, 46.05), {0, 0, 0});
+        const ReadTile read = read_vector(*mesh, tile_at(zoom, 7.05, 46.05), {0, 0, {}});
         for (const ReadFeature &f : read.at("triangles")) {
             const std::vector<TilePoint> &ring = f.parts.at(0);
             for (std::size_t i = 0, j = ring.size() - 1; i < ring.size(); j = i++)
@@ -308,7 +308,7 @@ TEST(VectorTile, ContoursGoOnInTheNextTile) {
         const abacus_tile left = tile_at(is_sampled ? 9 : 10, 7.3, 46.5);
         abacus_tile right = left;
         ++right.x;
-        const abacus_tile_vector_kind kind{0, 10, 0};
+        const abacus_tile_vector_kind kind{0, 10, {}};
         const ReadTile a = read_vector(mesh, left, kind), b = read_vector(mesh, right, kind);
         EXPECT_EQ(a.count("triangles"), is_sampled ? 0u : 1u);
         const auto leaving = crossings(a, 4096), entering = crossings(b, 0);
@@ -328,7 +328,7 @@ TEST(VectorTile, StaysSmallWhateverTheMeshHas) {
     for (int zoom = 0; zoom <= 14; ++zoom) {
         std::size_t bytes = 0;
         const ReadTile read =
-            read_vector(*mesh, tile_at(zoom, 7.5, 46.5), {0, zoom > 12 ? 1.0 : 0.01, 0}, &bytes);
+            read_vector(*mesh, tile_at(zoom, 7.5, 46.5), {0, zoom > 12 ? 1.0 : 0.01, {}}, &bytes);
         EXPECT_LT(bytes, most_tile_bytes) << zoom;
         EXPECT_GT(bytes, 0u) << zoom;
     }
@@ -337,17 +337,17 @@ TEST(VectorTile, StaysSmallWhateverTheMeshHas) {
 TEST(VectorTile, FarFromTheMeshIsEmpty) {
     const auto mesh = mesh_of(100, 1);
     std::size_t bytes = 1;
-    read_vector(*mesh, tile_at(9, -100, -30), {0, 100, 0}, &bytes);
+    read_vector(*mesh, tile_at(9, -100, -30), {0, 100, {}}, &bytes);
     EXPECT_EQ(bytes, 0u);
     MeshOf<2> empty(1);
-    read_vector(empty, tile_at(9, -100, -30), {0, 100, 0}, &bytes);
+    read_vector(empty, tile_at(9, -100, -30), {0, 100, {}}, &bytes);
     EXPECT_EQ(bytes, 0u);
 }
 
 TEST(VectorTile, HullClosesAroundTheMesh) {
     const auto mesh = mesh_of(20000, 1);
     const abacus_tile tile = tile_at(5, 7.5, 46.5);
-    const ReadTile read = read_vector(*mesh, tile, {0, 0, 0});
+    const ReadTile read = read_vector(*mesh, tile, {0, 0, {}});
     ASSERT_EQ(read.at("hull").size(), 1u);
     const auto &rings = read.at("hull")[0].parts;
     ASSERT_EQ(rings.size(), 1u);
@@ -393,7 +393,7 @@ TEST(TerrainTile, HasTheHeightsOfItsPixels) {
         Reader<2> reader(host, mesh->header, ample);
         const std::uint32_t attribute = 0;
         CornerValues values(&attribute, 1);
-        const Image image = decode(terrain_tile(host, mesh->header, tile, {64, 0, 0, -50}, plenty));
+        const Image image = decode(terrain_tile(host, mesh->header, tile, {64, 0, {}, -50}, plenty));
         ASSERT_EQ(image.width, 64);
         ASSERT_EQ(image.height, 64);
         int inside = 0;
@@ -555,7 +555,7 @@ TEST(Tile, NeedsLatitudes) {
     ASSERT_EQ(mesh.insert({{1, {0, 0}, {}}, {2, {1000, 0}, {}}, {3, {0, 1000}, {}}}), ABACUS_OK);
     const Host host = mesh.host.host();
     EXPECT_EQ(error_of([&] {
-                  vector_tile(host, mesh.header, {0, 0, 0, 1, {}, 0}, {-1, 0, 0}, plenty);
+                  vector_tile(host, mesh.header, {0, 0, 0, 1, {}, {}}, {-1, 0, {}}, plenty);
               }),
               "the mesh is not in longitude and latitude");
 }
@@ -564,10 +564,10 @@ TEST(Tile, MemoryIsGivenBack) {
     const auto mesh = mesh_of(30000, 1);
     const std::size_t before = mesh->host.bytes;
     for (const int zoom : {6, 12}) {
-        read_vector(*mesh, tile_at(zoom, 7.5, 46.5), {0, 10, 0});
+        read_vector(*mesh, tile_at(zoom, 7.5, 46.5), {0, 10, {}});
         const Host host = mesh->host.host();
         draw_picture_tile(host, mesh->header, tile_at(zoom, 7.5, 46.5), coloured(64), plenty);
-        terrain_tile(host, mesh->header, tile_at(zoom, 7.5, 46.5), {64, 0, 0, 0}, plenty);
+        terrain_tile(host, mesh->header, tile_at(zoom, 7.5, 46.5), {64, 0, {}, 0}, plenty);
     }
     EXPECT_EQ(mesh->host.bytes, before);
 }
