@@ -311,7 +311,7 @@ TEST(Regions, FaultsNamePlaces) {
 
 TEST(Regions, LargeOnesAreFloodedWithLittleMemory) {
     Random random(11);
-    Regioned mesh(random, 400, sanitized ? 4000 : 60000, little);
+    Regioned mesh(random, 400, sanitized ? 4000 : 25000, little);
     mesh.add_line(1, box_ring(10, 10, 380));
     mesh.add_line(2, box_ring(100, 100, 50));
     const std::map<RegionNumber, std::vector<std::int64_t>> outlines{{1, {1, 2}}};
