@@ -44,6 +44,8 @@ SELECT abacus_octree_from_points('soil', 'SELECT i, sin(i) + 1, cos(i) + 1, i / 
 SELECT abacus_octree_update('soil', 'SELECT code, lower[1] FROM abacus_octants(''soil'')');
 SELECT abacus_triangulate('fenced', 'SELECT 10 * x + y, x, y FROM generate_series(0, 9) AS x, generate_series(0, 9) AS y WHERE (x, y) <> (5, 5)');
 SELECT abacus_constrain('fenced', 'VALUES (7, 1, 0), (7, 2, 99), (7, 3, 90)', kind => 'soft');
+SELECT abacus_constrain('fenced', 'VALUES (8, 1, 1), (8, 2, 4), (8, 3, 24), (8, 4, 1)');
+SELECT abacus_region('fenced', $$VALUES ('corner', 8)$$);
 SELECT abacus_publish('fenced', geometry => false);
 GRANT USAGE ON SCHEMA abacus TO owner;
 SET ROLE owner;
@@ -79,6 +81,9 @@ like($many, qr/^46\|/, 'a mesh with 1,000 attributes');
 # The lines of a mesh, and the edges on them.
 sub lines_of_mesh { return $node->safe_psql($_[0], q{SELECT * FROM abacus_lines('fenced'); SELECT v0, v1, lines, kind FROM abacus_edges('fenced', fixed => true)}); }
 sub views_of_lines { return $node->safe_psql($_[0], q{SELECT * FROM fenced_breaklines; SELECT v0, v1, lines, kind FROM fenced_fixed_edges}); }
+sub regions_of_mesh { return $node->safe_psql($_[0], q{SELECT * FROM abacus_regions('fenced'); SELECT * FROM abacus_simplices('fenced', 'corner')}); }
+my $regions = regions_of_mesh('origin');
+like($regions, qr/^corner\|1\|\d+\|3\|/, 'with a region');
 my $lines = lines_of_mesh('origin');
 like($lines, qr/^7\|1\|0\|0\|0\|soft\|\n7\|2\|99\|9\|9\|soft\|\n/, 'a mesh with lines');
 
@@ -145,11 +150,13 @@ sub examine
 	is_sound($node, $database, 'many', "$what: a mesh with 1,000 attributes");
 	is(lines_of_mesh($database), $lines, "$what: a mesh with lines");
 	is(views_of_lines($database), $lines, "$what: and as views");
+	is(regions_of_mesh($database), $regions, "$what: its region");
 	is_sound($node, $database, 'fenced', "$what: a mesh with lines");
 	is($node->safe_psql($database, q{SELECT abacus_insert('fenced', 'VALUES (100, 5, 5)')}), 1, "$what: it grows");
 	is($node->safe_psql($database, "SELECT count(*) FROM pg_depend WHERE objid = 'fenced_lines'::regclass AND refobjid = 'fenced'::regclass"), 1, "$what: which binds the table of lines");
+	is($node->safe_psql($database, "SELECT count(*) FROM pg_depend WHERE objid = 'fenced_regions'::regclass AND refobjid = 'fenced'::regclass"), 1, "$what: and that of regions");
 	is($node->safe_psql($database, q{SELECT abacus_unconstrain('fenced', 'VALUES (7)')}), 1, "$what: the line goes");
-	is($node->safe_psql($database, q{DROP TABLE fenced; SELECT concat(to_regclass('fenced_lines'), to_regclass('fenced_breaklines'), to_regclass('fenced_fixed_edges'))}), '',
+	is($node->safe_psql($database, q{DROP TABLE fenced; SELECT concat(to_regclass('fenced_lines'), to_regclass('fenced_regions'), to_regclass('fenced_breaklines'), to_regclass('fenced_fixed_edges'))}), '',
 		"$what: dropping the mesh drops its lines and their views");
 	for my $mesh (@meshes)
 	{

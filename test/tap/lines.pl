@@ -1,4 +1,4 @@
-# Meshes with lines: kill -9 during changes, cancelling, two writers, a standby, and planted damage.
+# Meshes with lines and regions: kill -9 during changes, cancelling, two writers, a standby, and planted damage.
 #
 #     ABACUS_KILLS   how many times a process is killed (default 12)
 use strict;
@@ -19,10 +19,14 @@ $node->safe_psql('postgres', <<'SQL');
 ALTER DATABASE postgres SET client_min_messages = warning;
 CREATE SEQUENCE numbers START 100000;
 CREATE TABLE noted_points AS SELECT i AS id, (i * 7919) % 10007 / 10007::float8 AS x, (i * 104729) % 9973 / 9973::float8 AS y FROM generate_series(1, 4000) AS i;
+INSERT INTO noted_points VALUES (5001, 0.2, 0.2), (5002, 0.8, 0.2), (5003, 0.8, 0.9), (5004, 0.2, 0.9), (5005, 0.4, 0.4), (5006, 0.6, 0.4), (5007, 0.5, 0.7);
 CREATE TABLE noted_lines (line bigint, position int, point bigint, x float8, y float8);
 CREATE TABLE changes AS SELECT 0 AS count;
 SELECT abacus_triangulate('net', 'SELECT * FROM noted_points');
 SELECT abacus_constrain('net', 'SELECT 1, id, id FROM noted_points WHERE id IN (1, 2)');
+SELECT abacus_constrain('net', 'VALUES (-1, 1, 5001), (-1, 2, 5002), (-1, 3, 5003), (-1, 4, 5004), (-1, 5, 5001), (-2, 1, 5005), (-2, 2, 5006), (-2, 3, 5007), (-2, 4, 5005)');
+SELECT abacus_region('net', $$VALUES ('ring', -1), ('ring', -2)$$);
+SELECT abacus_region('net', $$VALUES ('hole', 0.5, 0.5)$$);
 INSERT INTO noted_lines SELECT line, position, point, x, y FROM abacus_lines('net');
 
 -- Lines along the axis x, each at a height of its own, so none cross; points, some of them on lines
@@ -68,6 +72,10 @@ sub is_as_noted
 	is(other_simplices($node, 'postgres', 'net', 'wanted', 2), 0, "$what: the triangles of a new mesh");
 	is($node->safe_psql('postgres', q{SELECT count(*) FROM (SELECT v0, v1, lines FROM abacus_edges('net', fixed => true) EXCEPT
 		SELECT v0, v1, lines FROM abacus_edges('wanted', fixed => true)) AS other}), 0, "$what: its fixed edges");
+	$node->safe_psql('postgres', q{SELECT abacus_region('wanted', $$VALUES ('ring', -1), ('ring', -2)$$); SELECT abacus_region('wanted', $$VALUES ('hole', 0.5, 0.5)$$)});
+	is($node->safe_psql('postgres', q{SELECT count(*) FROM (SELECT region, s.* FROM abacus_regions('net'), abacus_simplices('net', region) AS s EXCEPT
+		SELECT region, s.* FROM abacus_regions('wanted'), abacus_simplices('wanted', region) AS s) AS other}), 0, "$what: its regions");
+	is($node->safe_psql('postgres', q{SELECT region, round(area::numeric, 12) FROM abacus_regions('net')}), "hole|0.030000000000\nring|0.390000000000", "$what: their areas");
 	is($node->safe_psql('postgres', q{SELECT bt_index_check(oid, true) FROM pg_class AS c JOIN pg_index AS i ON i.indexrelid = c.oid WHERE indrelid = 'net_lines'::regclass;
 		SELECT count(*) FROM verify_heapam('net_lines')}), "\n\n0", "$what: the table of lines is intact");
 	return is_intact($node, 'postgres', 'net', $what);
@@ -175,6 +183,21 @@ is_found('hurt', "UPDATE hurt_lines SET kind = 'other' WHERE line = 7", $wrong, 
 is_found('hurt', "UPDATE hurt_lines SET kind = CASE kind WHEN 'hard' THEN 'soft' ELSE 'hard' END WHERE line = 7", qr/^lines\|Edges are hard or soft, and their lines are not/, 'a line of another kind');
 is_found('hurt', 'UPDATE hurt_lines SET x = x + 1 WHERE line = 7 AND position = 1', qr/^lines\|Line 7 lacks a fixed edge/, 'a point is moved');
 
+# ... and of regions: pages of a mesh with the same triangles, and no region or another one
+for my $mesh ('plot', 'bare')
+{
+	$node->safe_psql('postgres', qq{SELECT abacus_triangulate('$mesh', 'TABLE noted_points'); SELECT abacus_constrain('$mesh', 'SELECT line, position, point FROM noted_lines WHERE line < 0')});
+}
+$node->safe_psql('postgres', q{SELECT abacus_region('plot', $$VALUES ('ring', -1), ('ring', -2)$$)});
+for my $code (split /\n/, $node->safe_psql('postgres', 'SELECT p.code FROM plot AS p JOIN bare AS b USING (code, part) WHERE code >= 0 AND p.page::bytea <> b.page::bytea LIMIT 20'))
+{
+	is_found('plot', "UPDATE plot SET page = bare.page FROM bare WHERE (bare.code, bare.part) = (plot.code, plot.part) AND plot.code = $code",
+		qr/^regions\|A region (ends at an edge that is not fixed|has no triangles)/, "a page without the region, $code");
+}
+is_found('plot', 'DELETE FROM plot WHERE code >= 0; INSERT INTO plot SELECT * FROM bare WHERE code >= 0', qr/^regions\|A region has no triangles/, 'all pages');
+is_found('plot', 'DELETE FROM plot_regions', qr/^regions\|The header counts more or fewer regions/, 'all regions are lost');
+is_found('plot', 'UPDATE plot_regions SET number = 5', qr/^regions\|Triangles have the number of a region that does not exist/, 'another number');
+
 # A standby reads lines, and changes none
 $node->append_conf('postgresql.conf', 'max_wal_senders = 4');
 $node->set_replication_conf;
@@ -183,7 +206,7 @@ $node->backup('before');
 my $standby = PostgreSQL::Test::Cluster->new('lines_standby');
 $standby->init_from_backup($node, 'before', has_streaming => 1);
 $standby->start;
-my $questions = q{SELECT md5(string_agg(l::text, ';')) FROM abacus_lines('net') AS l; SELECT count(*), md5(string_agg(e::text, ';' ORDER BY e)) FROM abacus_edges('net', fixed => true) AS e};
+my $questions = q{SELECT md5(string_agg(l::text, ';')) FROM abacus_lines('net') AS l; SELECT count(*), md5(string_agg(e::text, ';' ORDER BY e)) FROM abacus_edges('net', fixed => true) AS e; SELECT region, area FROM abacus_regions('net'); SELECT count(*) FROM abacus_simplices('net', 'ring')};
 for my $round (1 .. 5)
 {
 	$node->safe_psql('postgres', 'SELECT change() FROM generate_series(1, 4)');

@@ -1,5 +1,6 @@
 // The header row of a mesh, as bytes.
 #include <abacus/mesh_header.h>
+#include <abacus/regions.h>
 
 #include <gtest/gtest.h>
 
@@ -539,6 +540,28 @@ TEST(Header, OfAMeshWithLines) {
     EXPECT_FALSE(taken([](abacus_header &h) { h.facts.census.lines = 0; }));
     EXPECT_FALSE(taken([](abacus_header &h) { h.facts.census.lines = UINT64_MAX; }));
     EXPECT_FALSE(taken([](abacus_header &h) { h.facts.form.dimension = 3; }));
+    EXPECT_FALSE(taken([](abacus_header &h) { h.facts.standing = ABACUS_DELAUNAY; }));
+}
+
+TEST(Header, OfAMeshWithRegions) {
+    const auto taken = [](auto change) {
+        abacus_header header = full_header(1);
+        header.facts.form.dimension = 2;
+        header.facts.standing = ABACUS_CONSTRAINED;
+        header.facts.census.lines = 3;
+        header.facts.census.regions = 2;
+        header.facts.census.seeded = 1;
+        change(header);
+        abacus_header decoded;
+        return decodes(encode(header), &decoded) &&
+               decoded.facts.census.regions == header.facts.census.regions &&
+               decoded.facts.census.seeded == header.facts.census.seeded;
+    };
+    EXPECT_TRUE(taken([](abacus_header &) {}));
+    EXPECT_TRUE(taken([](abacus_header &h) { h.facts.census.regions = ABACUS_MAX_REGIONS; }));
+    EXPECT_FALSE(taken([](abacus_header &h) { h.facts.census.regions = ABACUS_MAX_REGIONS + 1; }));
+    EXPECT_FALSE(taken([](abacus_header &h) { h.facts.census.seeded = 3; }));
+    EXPECT_FALSE(taken([](abacus_header &h) { h.facts.census.lines = 0; }));
     EXPECT_FALSE(taken([](abacus_header &h) { h.facts.standing = ABACUS_DELAUNAY; }));
 }
 

@@ -393,7 +393,8 @@ TEST(TerrainTile, HasTheHeightsOfItsPixels) {
         Reader<2> reader(host, mesh->header, ample);
         const std::uint32_t attribute = 0;
         CornerValues values(&attribute, 1);
-        const Image image = decode(terrain_tile(host, mesh->header, tile, {64, 0, {}, -50}, plenty));
+        const Image image =
+            decode(terrain_tile(host, mesh->header, tile, {64, 0, {}, -50}, plenty));
         ASSERT_EQ(image.width, 64);
         ASSERT_EQ(image.height, 64);
         int inside = 0;
