@@ -135,6 +135,21 @@ query_run(const char *query)
 	return SPI_processed;
 }
 
+/*
+ * Runs a statement that must change so many rows of a mesh's table: a rule or a trigger may keep it from
+ * that. `contents`: what the table has, for the message.
+ */
+void
+query_change(const char *table, const char *contents, const char *statement, uint64 rows)
+{
+	if (query_run(statement) != rows)
+		ereport(ERROR,
+				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
+				 errmsg("a rule or a trigger interferes with the table of %s", contents),
+				 errdetail("The table is %s.", table),
+				 errhint("Drop it. The table belongs to the mesh.")));
+}
+
 /* Gets the first row of a query; false if it has none. */
 bool
 query_first(const char *query, Datum *values, bool *isnull, int count)

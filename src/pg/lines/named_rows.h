@@ -36,6 +36,7 @@ extern void plain_names_end(int level);
 
 extern uint64 query_into(Tuplestorestate *store, const char *query);
 extern uint64 query_run(const char *query);
+extern void query_change(const char *table, const char *contents, const char *statement, uint64 rows);
 extern bool query_first(const char *query, Datum *values, bool *isnull, int count);
 
 #endif

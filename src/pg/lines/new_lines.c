@@ -52,20 +52,6 @@ new_lines_check_mesh(const Change *change)
 						 "abacus_triangulate().")));
 }
 
-/* ---- The table of lines ------------------------------------------------------------ */
-
-/* Runs a statement that must change so many rows of the table: a rule or a trigger may keep it from that. */
-static void
-change_rows(const char *table, const char *statement, uint64 rows)
-{
-	if (query_run(statement) != rows)
-		ereport(ERROR,
-				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
-				 errmsg("a rule or a trigger interferes with the table of lines"),
-				 errdetail("The table is %s.", table),
-				 errhint("Drop it. The table belongs to the mesh.")));
-}
-
 /* ---- Lines that go ------------------------------------------------------------------- */
 
 /*
@@ -90,7 +76,7 @@ new_lines_delete(Change *change, const char *table, const char *ids, int64 *soft
 	mesh_lines_add(change->writer.host, change->freed,
 				   psprintf("SELECT l.line, l.x, l.y, l.part, l.kind OPERATOR(pg_catalog.=) 'soft' FROM %s AS l WHERE l.line IN (%s) "
 							"ORDER BY l.line, l.position", table, ids));
-	change_rows(table, psprintf("DELETE FROM %s AS l WHERE l.line IN (%s)", table, ids),
+	query_change(table, "lines", psprintf("DELETE FROM %s AS l WHERE l.line IN (%s)", table, ids),
 				(uint64) DatumGetInt64(counts[2]));
 	return (uint64) DatumGetInt64(counts[0]);
 }
@@ -237,7 +223,7 @@ change_edges(Change *change, const LineValues *values)
 void
 new_lines_write(const char *table, const LineValues *values, const NamedRows *points)
 {
-	change_rows(table,
+	query_change(table, "lines",
 				psprintf("INSERT INTO %s (line, position, point, x, y, part, kind, made) SELECT p.line, p.position, "
 						 "p.point, p.x, p.y, p.part, %s, %s FROM " LINE_POINTS " AS p %s "
 						 "ORDER BY p.line, p.position", table, values->kind, values->made, values->joins),

@@ -115,17 +115,6 @@ notice_repeated(uint64 given, uint64 kept)
 
 /* ---- Regions that come and go ---------------------------------------------------------- */
 
-static void
-change_rows(const char *table, const char *statement, uint64 rows)
-{
-	if (query_run(statement) != rows)
-		ereport(ERROR,
-				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
-				 errmsg("a rule or a trigger interferes with the table of regions"),
-				 errdetail("The table is %s.", table),
-				 errhint("Drop it. The table belongs to the mesh.")));
-}
-
 /* Writes the rows; *first is the number of the first region, *count how many there are. */
 static void
 write_parts(Change *change, const char *table, const NamedRows *parts, int32 *first, uint64 *count)
@@ -145,7 +134,7 @@ write_parts(Change *change, const char *table, const NamedRows *parts, int32 *fi
 				 errmsg("mesh \"%s\" would have too many regions", RelationGetRelationName(mesh_of(change))),
 				 errdetail("Numbers of regions go up to %d.", ABACUS_MAX_REGIONS),
 				 errhint("Remove all regions, and give those that are needed anew.")));
-	change_rows(table,
+	query_change(table, "regions",
 				psprintf("INSERT INTO %s (region, number, part, line, x, y) SELECT region, "
 						 "%d - 1 + dense_rank() OVER (ORDER BY region COLLATE \"C\"), "
 						 "row_number() OVER (PARTITION BY region ORDER BY line, x, y), line, x, y FROM " NEW_PARTS
