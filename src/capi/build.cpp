@@ -39,7 +39,7 @@ abacus_status abacus_build_hold(abacus_build *build, abacus_error *error) {
 }
 
 abacus_status abacus_build_settle(abacus_build *build, abacus_header *header, abacus_error *error) {
-    return abacus::run_change(build, header, error, [&](auto &opened, abacus_header &changed) {
+    return abacus::run_change_of_values(build, header, error, [&](auto &opened, abacus_header &changed) {
         opened.settle(changed);
     });
 }
