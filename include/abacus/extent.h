@@ -13,7 +13,7 @@ extern "C" {
 /* The others are as if they were outside of the mesh. All zero: all count. */
 typedef struct abacus_extent
 {
-	double max_edge;   /* those without a longer edge; 0: any */
+	double max_edge;   /* those without a longer edge; 0 or infinity: any */
 	uint32_t region;   /* those in the region with this number; 0: any */
 } abacus_extent;
 

@@ -39,9 +39,9 @@ abacus_status abacus_build_hold(abacus_build *build, abacus_error *error) {
 }
 
 abacus_status abacus_build_settle(abacus_build *build, abacus_header *header, abacus_error *error) {
-    return abacus::run_change_of_values(build, header, error, [&](auto &opened, abacus_header &changed) {
-        opened.settle(changed);
-    });
+    return abacus::run_change_of_values(
+        build, header, error,
+        [&](auto &opened, abacus_header &changed) { opened.settle(changed); });
 }
 
 abacus_status abacus_build_insert(abacus_build *build, abacus_stage *stage,

@@ -8,10 +8,15 @@
 #include <abacus/extent.h>
 #include <abacus/simplex.h>
 
+#include <cmath>
+
 namespace abacus {
 
+inline bool limits_edges(const abacus_extent &extent) {
+    return extent.max_edge > 0 && std::isfinite(extent.max_edge);
+}
 inline bool is_all(const abacus_extent &extent) {
-    return extent.max_edge == 0 && extent.region == no_region;
+    return !limits_edges(extent) && extent.region == no_region;
 }
 
 /// Whether none of the edges between n points, point(0) to point(n - 1), is longer than a bound.
@@ -26,7 +31,7 @@ template <int D, class PointOf> bool has_short_edges(int n, double bound, PointO
 template <int D, class PointOf>
 bool is_in(const abacus_extent &extent, RegionNumber region, int n, PointOf point) {
     return (extent.region == no_region || region == extent.region) &&
-           (extent.max_edge == 0 || has_short_edges<D>(n, extent.max_edge, point));
+           (!limits_edges(extent) || has_short_edges<D>(n, extent.max_edge, point));
 }
 template <int D>
 bool is_in(const abacus_extent &extent, RegionNumber region, const Corners<D> &corners) {

@@ -91,7 +91,7 @@ template <int D> bool FaceScan<D>::touches_region() {
 template <int D> bool FaceScan<D>::is_wanted() {
     if (range_ && !is_in_range_[vertices_[0]]) return false;
     if (corners_ == 1) return window_.contains(point(0));
-    if (extent_.max_edge > 0 && !is_within<D>(extent_.max_edge, point(0), point(1))) return false;
+    if (limits_edges(extent_) && !is_within<D>(extent_.max_edge, point(0), point(1))) return false;
     return window_.meets(point(0), point(1)) && touches_region();
 }
 
