@@ -105,7 +105,8 @@ bool Maker::read(const PageView<2> &page) {
             triangle[i] = {place_of_vertex(page.point(v)), NAN, page.id(v)};
         }
         if (is_ghost) {
-            hull_.add(0, triangle[1].at, triangle[0].at); // as the triangle beside it sees it
+            if (kind_.extent.region == no_region)             // a region has another border
+                hull_.add(0, triangle[1].at, triangle[0].at); // as the triangle beside it sees it
             continue;
         }
         if (!meets_tile(triangle[0].at, triangle[1].at, triangle[2].at)) continue;
