@@ -22,7 +22,7 @@ RETURNS void
 AS 'MODULE_PATHNAME', 'abacus_sql_unregion'
 LANGUAGE C VOLATILE STRICT PARALLEL UNSAFE;
 COMMENT ON FUNCTION abacus_unregion(regclass, text) IS
-    'removes a region from a mesh. Its triangles and lines stay. Errors: 42704 no such region, 55000 a mesh in space or that cannot be changed';
+    'removes a region from a mesh. Its triangles and lines stay. Errors: 42704 no such region, 55000 a mesh in space, whose lines wait, or that cannot be changed';
 
 CREATE FUNCTION abacus_regions(
     mesh regclass,

@@ -171,10 +171,20 @@ SELECT is((SELECT triangles FROM abacus_regions('field') WHERE region = 'pond'),
 SELECT throws_ok($$SELECT abacus_constrain('field', 'VALUES (22, 1, 22), (22, 2, 33)')$$, '22023', 'seed (2.5, 2.5) of region "pond" is on a fixed edge');
 SELECT is((SELECT count(*) FROM abacus_check('field')), 0::bigint, 'sound');
 
+-- while lines wait for points that wait
+SELECT abacus_stage('field', 'VALUES (2001, 12, 12, 1), (2002, 12, 14, 1)');
+SELECT abacus_constrain('field', 'VALUES (30, 1, 2001), (30, 2, 2002)');
+SELECT pg_temp.refused($$SELECT abacus_unregion('field', 'hut')$$, '55000', 'lines of mesh "field" wait', 'A region ends at the fixed edges of lines.');
+SELECT abacus_triangulate('field');
+SELECT abacus_unregion('field', 'hut');
+SELECT is((SELECT count(*) FROM abacus_check('field')), 0::bigint, 'when they are fixed, a region goes with its number');
+SELECT abacus_region('field', $$VALUES ('hut', 5)$$);
+SELECT is((SELECT concat_ws(' ', triangles, area) FROM abacus_regions('field') WHERE region = 'hut'), '4 2', 'and comes back');
+
 -- numbers, damage
-UPDATE field_regions SET number = 77 WHERE region = 'hut';
+UPDATE field_regions SET number = number + 70 WHERE region = 'hut';
 SELECT is((SELECT string_agg(fault || ': ' || message, ' ') FROM abacus_check('field')), 'regions: Triangles have the number of a region that does not exist.', 'a number that does not fit');
-UPDATE field_regions SET number = 2 WHERE region = 'hut';
+UPDATE field_regions SET number = number - 70 WHERE region = 'hut';
 DELETE FROM field_regions WHERE region = 'wood';
 SELECT is((SELECT string_agg(fault || ': ' || message, ' ') FROM abacus_check('field')), 'regions: The header counts more or fewer regions than there are.', 'a region that is lost');
 

@@ -227,11 +227,11 @@ new_regions_remove(Change *change, const char *region)
 				 errhint("Make regions with abacus_region().")));
 	table = regions_table_require(mesh, MESH_WRITE);
 	number = regions_table_number(mesh, MESH_WRITE, region);
+	require_lines(change);
 	change_open_build(change);
-	if (census->lines_wait == 0)
-		mesh_regions_clear(&change->writer, change->build,
-						   mesh_regions_read(&change->writer,
-											 psprintf("r.number OPERATOR(pg_catalog.=) %u", number)));
+	mesh_regions_clear(&change->writer, change->build,
+					   mesh_regions_read(&change->writer,
+										 psprintf("r.number OPERATOR(pg_catalog.=) %u", number)));
 	SPI_connect();
 	level = plain_names_begin(true);
 	query_first(psprintf("SELECT count(*) FROM (SELECT FROM %s WHERE number = %u AND line IS NULL LIMIT 1) AS s",
