@@ -14,7 +14,7 @@
  *   windows.h    simplices, vertices and edges of a window; scan.h: all, in order
  *   contours.h, surface.h, shapes.h, volume.h   lines, surfaces, outlines, volumes
  *   crossings.h                                 where segments of lines cross
- *   constrain.h, regions.h, extent.h            fixed edges, regions between them, questions within
+ *   constrain.h, regions.h, extent.h, area.h    fixed edges, regions between them, questions within
  *   draw.h, raycast.h, tile.h                   pictures
  *   octree.h, octree_ask.h                      octrees
  *   check.h                                     verification
@@ -35,6 +35,7 @@
 #ifndef ABACUS_ABACUS_H
 #define ABACUS_ABACUS_H
 
+#include "abacus/area.h"
 #include "abacus/arrays.h"
 #include "abacus/build.h"
 #include "abacus/check.h"

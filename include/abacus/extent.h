@@ -1,5 +1,5 @@
 /*
- * extent.h: which simplices of a mesh count in a question.
+ * extent.h: which part of a mesh counts in a question.
  */
 #ifndef ABACUS_ABACUS_EXTENT_H
 #define ABACUS_ABACUS_EXTENT_H
@@ -10,11 +10,16 @@
 extern "C" {
 #endif
 
-/* The others are as if they were outside of the mesh. All zero: all count. */
+/* A polygon in the plane, prepared for questions: area.h. */
+typedef struct abacus_area abacus_area;
+
+/* All else is as if it were outside of the mesh. All zero: all counts. */
 typedef struct abacus_extent
 {
-	double max_edge;   /* those without a longer edge; 0 or infinity: any */
+	double max_edge;   /* simplices without a longer edge; 0 or infinity: any */
 	uint32_t region;   /* those in the region with this number; 0: any */
+	const abacus_area *area; /* those that have a part in it; lines, areas and values end at
+									* its border; null: any. It must live as long. */
 } abacus_extent;
 
 #ifdef __cplusplus

@@ -227,6 +227,35 @@ void Canvas::contour(const Patch &p, const double (&values)[Patch::most]) {
     }
 }
 
+void Canvas::leave_only(
+    const std::function<void(const std::function<void(const Patch &)> &)> &each) {
+    Arena<float> kept(*host_); // the share of each pixel
+    kept.reserve(pixels_.size());
+    for (std::int32_t y = 0; y < height_; ++y) {
+        host_->poll();
+        std::fill_n(kept.extend(width_), width_, 0.0f);
+    }
+    each([&](const Patch &patch) {
+        Patch p = patch;
+        for (int i = 0; i < p.corners; ++i) {
+            p.corner[i][0] = frame_.x(patch.corner[i][0]);
+            p.corner[i][1] = frame_.y(patch.corner[i][1]);
+        }
+        raster_.fill(p, [&](std::int32_t x, std::int32_t y, double covered) {
+            kept[static_cast<std::size_t>(y) * width_ + x] += static_cast<float>(covered);
+        });
+    });
+    for (std::size_t i = 0; i < pixels_.size(); ++i) {
+        if (i % width_ == 0) host_->poll();
+        const float share = std::min(kept[i], 1.0f);
+        Pixel &pixel = pixels_[i];
+        for (float *sum : {&pixel.covered, &pixel.count, &pixel.valued, &pixel.value, &pixel.ink})
+            *sum *= share;
+        if (!contours_.empty()) contours_[i] *= share;
+        if (!heights_.empty()) heights_[i] *= share;
+    }
+}
+
 bool Canvas::is_blank() const {
     for (std::int32_t y = 0; y < drawing_.height; ++y)
         for (std::int32_t x = 0; x < drawing_.width; ++x)

@@ -26,6 +26,8 @@
 #include "draw/raster.hpp"
 #include "host/arena.hpp"
 
+#include <functional>
+
 #include <abacus/draw.h>
 
 namespace abacus {
@@ -45,6 +47,9 @@ public:
 
     /// Corners outside the window are welcome, values may be NaN.
     void add(const Patch &patch);
+    /// Leaves only what other patches cover, which do not overlap: each(keep) calls keep(patch) for
+    /// all of them.
+    void leave_only(const std::function<void(const std::function<void(const Patch &)> &)> &each);
 
     /// Whether no patch so far covers anything of the picture.
     bool is_blank() const;

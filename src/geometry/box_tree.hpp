@@ -20,7 +20,7 @@ public:
     /// Memory for a box and its share of the nodes above, bytes.
     static constexpr std::size_t bytes_per_box = sizeof(Box<D>) * fan / (fan - 1) + 1;
 
-    explicit BoxTree(const Host &host) : boxes_(host) {}
+    explicit BoxTree(const Memory &memory) : boxes_(memory) {}
 
     void clear() {
         boxes_.clear();

@@ -1,8 +1,10 @@
 #include "query/levels/contours.hpp"
 
 #include "query/levels/contour_rings.hpp"
+#include "query/levels/path_parts.hpp"
 #include "query/pages/page_simplex.hpp"
 #include "query/scan/extent_pages.hpp"
+#include "query/scan/narrowed.hpp"
 
 #include <cmath>
 #include <limits>
@@ -28,8 +30,9 @@ void report_path(abacus_contour_report report, void *context, std::int64_t id, d
 Contours::Contours(const Host &host, const abacus_facts &facts, const abacus_window &window,
                    const abacus_contouring &contouring, std::size_t memory)
     : host_(host), facts_(facts), simplices_(facts.census.simplices + facts.census.ghosts),
-      pacer_(host), how_(checked(facts, contouring)), window_(window), bounds_(window),
-      levels_(how_), attribute_(&how_.attribute, 1), vertex_values_(host, facts),
+      pacer_(host), how_(checked(facts, contouring)),
+      window_(narrowed<2>(window, contouring.extent)), bounds_(window), levels_(how_),
+      attribute_(&how_.attribute, 1), vertex_values_(host, facts),
       pages_(host, facts, window_.region(), pages_in<2>(how_.extent)),
       cut_(bounds_, levels_, how_.bands != 0), pieces_(host, memory / 3 * 2),
       rims_(host, bounds_, levels_, memory / 3), edges_(host) {}
@@ -164,9 +167,16 @@ void Contours::note_rims() {
 
 void Contours::report_lines(abacus_contour_report report, void *context) {
     std::int64_t id = 0;
+    PathParts parts(host_);
     pieces_.each([&](std::int64_t level, bool is_closed, const Arena<Point<2>> &path) {
         if (path.size() < 2 || (is_closed && path.size() < 3)) return; // a single point
-        report_path(report, context, ++id, levels_.level(level), is_closed, path);
+        const auto put = [&](const Arena<Point<2>> &part, bool closed) {
+            report_path(report, context, ++id, levels_.level(level), closed, part);
+        };
+        if (const Polygon *polygon = polygon_of(how_.extent))
+            parts.each(*polygon, path, is_closed, put);
+        else
+            put(path, is_closed);
     });
 }
 

@@ -1,6 +1,7 @@
 #include "query/lines/line_scan.hpp"
 
 #include "query/locate/preferred.hpp"
+#include "query/values/barycentric.hpp"
 #include "query/values/weighted_mean.hpp"
 
 #include <algorithm>
@@ -101,7 +102,14 @@ template <int D> std::optional<LinePiece<D>> LineScan<D>::piece_in(Handle h) con
         piece.leaves.at = 1;
     else
         fill(piece.leaves, h, passage->leaves);
-    reader_.describe(h, piece.simplex);
+    if (area_ == nullptr || attribute_ < 0) {
+        reader_.describe(h, piece.simplex);
+        return piece;
+    }
+    const auto attribute = static_cast<std::uint32_t>(attribute_);
+    CornerValues values(&attribute, 1);
+    reader_.describe(h, piece.simplex, &values);
+    for (int i = 0; i <= D; ++i) piece.value[i] = values.value(i, 0);
     return piece;
 }
 
@@ -115,6 +123,10 @@ template <int D> void LineScan<D>::consider(Handle h, const Crossing<D> &enters)
 
 template <int D> bool LineScan<D>::hand_out(Piece &piece) {
     if (!is_in<D>(extent_, piece.simplex)) return true;
+    return area_ == nullptr ? hand_out_whole(piece) : hand_out_parts(piece);
+}
+
+template <int D> bool LineScan<D>::hand_out_whole(Piece &piece) {
     piece.follows = left_ && left_->is_same_place(piece.enters);
     piece.jumps = piece.follows && !piece.enters.is_end && !piece.enters.has_values_of(*left_);
     // Rounding must not change the order.
@@ -125,10 +137,56 @@ template <int D> bool LineScan<D>::hand_out(Piece &piece) {
     return (*visit_)(piece);
 }
 
+// ---- Polygons --------------------------------------------------------------------------
+
+template <int D> void LineScan<D>::cut_line() {
+    if constexpr (D == 2)
+        if (area_ != nullptr && line_.to)
+            area_->polygon.cut(line_.from, *line_.to,
+                               [this](const Polygon::Stretch &s) { stretches_.push_back(s); });
+}
+
+/// A place in the interior of a piece's simplex.
+template <int D>
+Crossing<D> LineScan<D>::crossing_at(const Piece &piece, double at, const Point<D> &place) const {
+    Crossing<D> crossing;
+    crossing.is_end = false;
+    crossing.at = at;
+    crossing.error = 1e-15 * std::fabs(at);
+    crossing.corner.fill(place);
+    crossing.weight.fill(0);
+    crossing.weight[0] = 1;
+    const auto weights = barycentric_weights<D>(piece.simplex, place);
+    crossing.value.fill(attribute_ < 0 ? 0
+                                       : weighted_mean(
+                                             D + 1, [&](std::size_t i) { return weights[i]; },
+                                             [&](std::size_t i) { return piece.value[i]; }));
+    return crossing;
+}
+
+template <int D> bool LineScan<D>::hand_out_parts(const Piece &piece) {
+    if constexpr (D == 2) {
+        while (stretch_ < stretches_.size() && stretches_[stretch_].to <= piece.enters.at)
+            ++stretch_;
+        for (std::size_t i = stretch_; i < stretches_.size(); ++i) {
+            const Polygon::Stretch &stretch = stretches_[i];
+            if (piece.leaves.at <= stretch.from) break;
+            Piece part = piece;
+            if (piece.enters.at < stretch.from)
+                part.enters = crossing_at(piece, stretch.from, stretch.first);
+            if (stretch.to < piece.leaves.at)
+                part.leaves = crossing_at(piece, stretch.to, stretch.last);
+            if (!hand_out_whole(part)) return false;
+        }
+    }
+    return true;
+}
+
 template <int D> void LineScan<D>::each(const std::function<bool(const LinePiece<D> &)> &visit) {
     if (reader_.is_empty()) return;
     visit_ = &visit;
     left_.reset();
+    stretch_ = 0;
     if (reader_.is_convex())
         follow();
     else

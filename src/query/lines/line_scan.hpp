@@ -24,6 +24,9 @@
 // the order in which the line meets their boxes, and their simplices wait in a heap until no
 // earlier one can be in a page still to be read. The order is exact: places on the line are
 // compared in rational numbers where doubles do not decide.
+//
+// A polygon of the extent cuts the line first, exactly (geometry/polygon.hpp). Pieces end where its
+// stretches do, by their parameters.
 #pragma once
 
 #include "geometry/line.hpp"
@@ -61,6 +64,7 @@ template <int D> struct LinePiece {
     bool follows = false; // the piece before, without a gap
     bool jumps = false;   // ... but has other values there: the piece before is beyond a fault
     abacus_simplex simplex;
+    std::array<double, D + 1> value; // of its corners, if a polygon may cut the piece
 };
 
 template <int D> class LineScan {
@@ -70,7 +74,9 @@ public:
     LineScan(Reader<D> &reader, const Line<D> &line, int attribute = -1,
              const abacus_extent &extent = {})
         : reader_(reader), cache_(reader.cache()), line_(line), attribute_(attribute),
-          extent_(extent), memory_(cache_.host()) {}
+          extent_(without_polygon(extent)), area_(extent.area), memory_(cache_.host()) {
+        cut_line();
+    }
     LineScan(const LineScan &) = delete;
     LineScan &operator=(const LineScan &) = delete;
 
@@ -87,6 +93,12 @@ private:
     /// Keeps only the first of all simplices with the same piece in found_.
     void consider(Handle h, const Crossing<D> &enters);
     bool hand_out(Piece &piece);
+    /// The parts of a piece in the stretches.
+    bool hand_out_parts(const Piece &piece);
+    bool hand_out_whole(Piece &piece);
+    /// Finds the stretches of the line in the polygon.
+    void cut_line();
+    Crossing<D> crossing_at(const Piece &piece, double at, const Point<D> &place) const;
 
     void follow();
     void begin();
@@ -108,9 +120,12 @@ private:
     const Line<D> line_;
     const int attribute_;
     const abacus_extent extent_;
+    const abacus_area *const area_;
     HostMemory memory_;
     const std::function<bool(const Piece &)> *visit_ = nullptr;
-    std::optional<Crossing<D>> left_; // the end of the last piece passed on
+    std::pmr::vector<Polygon::Stretch> stretches_{&memory_}; // if there is a polygon
+    std::size_t stretch_ = 0;                                // the first that does not end before
+    std::optional<Crossing<D>> left_;                        // the end of the last piece passed on
     // When the line is followed: the current piece, and its simplex.
     std::optional<Piece> found_;
     Handle at_ = no_handle;

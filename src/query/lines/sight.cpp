@@ -133,6 +133,7 @@ bool LineOfSight::is_above(const Line<2> &line, const Crossing<2> &crossing,
                          1e-14 * (std::fabs(least) + std::fabs(greatest) +
                                   std::fabs(from_.rounded) + std::fabs(to_.rounded));
     if (std::fabs(above) > error) return above > 0;
+    if (crossing.corner[0] == crossing.corner[1]) return false; // the border of a polygon
     const auto weights = exact::facet_weights<2>(line, [&](int i) { return crossing.corner[i]; });
     Rational sum = 0, whole = 0;
     for (int i = 0; i < 2; ++i) {

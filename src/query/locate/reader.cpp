@@ -201,7 +201,9 @@ void Reader<D>::describe(Handle h, abacus_simplex &simplex, CornerValues *values
 
 template <int D>
 bool Reader<D>::locate(const Point<D> &p, abacus_simplex &simplex, CornerValues *values,
-                       const abacus_extent &extent) {
+                       const abacus_extent &where) {
+    if (!may_count<D>(where, p)) return false;
+    const abacus_extent extent = without_polygon(where);
     if (!convex_) {
         // When the cache is full, a walk needs pages that were evicted; a search keeps other pages.
         const bool is_walk = !is_search_ && cache_.counters.evictions == 0;

@@ -1,9 +1,10 @@
-// Which simplices count in a question: those without a long edge, and those in a region. Users
-// leave out others, such as those across open water. Exact.
+// Which simplices count in a question: those without a long edge, in a region, and with a part in a
+// polygon. Users leave out others, such as those across open water. Exact.
 #pragma once
 
 #include "geometry/ball.hpp"
 #include "mesh/cache.hpp"
+#include "query/pages/area.hpp"
 
 #include <abacus/extent.h>
 #include <abacus/simplex.h>
@@ -16,7 +17,7 @@ inline bool limits_edges(const abacus_extent &extent) {
     return extent.max_edge > 0 && std::isfinite(extent.max_edge);
 }
 inline bool is_all(const abacus_extent &extent) {
-    return !limits_edges(extent) && extent.region == no_region;
+    return !limits_edges(extent) && extent.region == no_region && extent.area == nullptr;
 }
 
 /// Whether none of the edges between n points, point(0) to point(n - 1), is longer than a bound.
@@ -27,11 +28,17 @@ template <int D, class PointOf> bool has_short_edges(int n, double bound, PointO
     return true;
 }
 
-/// Of a simplex, or of a ghost by its n finite corners.
+/// Of a simplex, or of a ghost by its n finite corners, of which no polygon has a part.
 template <int D, class PointOf>
 bool is_in(const abacus_extent &extent, RegionNumber region, int n, PointOf point) {
-    return (extent.region == no_region || region == extent.region) &&
-           (!limits_edges(extent) || has_short_edges<D>(n, extent.max_edge, point));
+    if (extent.region != no_region && region != extent.region) return false;
+    if (limits_edges(extent) && !has_short_edges<D>(n, extent.max_edge, point)) return false;
+    if constexpr (D == 2)
+        if (const Polygon *polygon = polygon_of(extent)) {
+            const Point<2> corner[3] = {point(0), point(1), n == 3 ? point(2) : point(1)};
+            return n == 3 && polygon->overlaps({&corner[0], &corner[1], &corner[2]});
+        }
+    return true;
 }
 template <int D>
 bool is_in(const abacus_extent &extent, RegionNumber region, const Corners<D> &corners) {

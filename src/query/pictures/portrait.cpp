@@ -1,6 +1,7 @@
 #include "query/pictures/portrait.hpp"
 
 #include "draw/section.hpp"
+#include "geometry/clip_trapezoid.hpp"
 #include "geometry/map_plane.hpp"
 #include "query/pages/extent.hpp"
 #include "query/pages/page_values.hpp"
@@ -10,6 +11,8 @@
 
 #include <array>
 #include <cmath>
+#include <optional>
+#include <type_traits>
 
 namespace abacus {
 
@@ -21,6 +24,9 @@ public:
     static constexpr int dimension = D;
 
     void enter(const PageView<D> &page) { values_.enter(page); }
+
+    /// Null: there is none.
+    const Polygon *polygon() const { return polygon_of(extent_); }
 
 protected:
     MeshView(const Host &host, const abacus_facts &facts, const abacus_drawing &drawing)
@@ -58,16 +64,54 @@ public:
         if (page.is_ghost(simplex) || !is_shown(page, simplex, 3)) return false;
         for (int i = 0; i < 3; ++i) {
             const int v = page.corner(simplex, i);
-            const Point<2> p = plane_.project(page.point(v));
-            patch.corner[i][0] = p[0];
-            patch.corner[i][1] = p[1];
+            put(patch, i, page.point(v));
             patch.value[i] = value(v);
         }
         set_label(page, simplex, patch);
         return true;
     }
+    /// Calls visit(patch) for the parts of a simplex in the polygon, if there is one.
+    template <class Visit> void show_parts(const PageView<2> &page, int simplex, Visit visit) {
+        Patch patch;
+        if (!show(page, simplex, patch)) return;
+        if (polygon() == nullptr) return visit(patch);
+        const Point<2> &origin = page.point(page.corner(simplex, 0));
+        Piece<2> whole;
+        Box<2> box;
+        for (int i = 0; i < 3; ++i) {
+            const Point<2> &p = page.point(page.corner(simplex, i));
+            box.extend(p);
+            whole.corner[i] = {p[0] - origin[0], p[1] - origin[1]};
+            whole.value[i] = patch.value[i];
+        }
+        polygon()->each_part(box, [&](const Polygon::Trapezoid &part) {
+            clip_trapezoid(whole, part, origin, [&](const Piece<2> &piece) {
+                for (int i = 0; i < 3; ++i) {
+                    const Point<2> &p = piece.corner[i];
+                    put(patch, i, {p[0] + origin[0], p[1] + origin[1]});
+                    patch.value[i] = piece.value[i];
+                }
+                visit(patch);
+            });
+        });
+    }
+    /// Calls visit(patch) for parts of the polygon, which have no values.
+    template <class Visit> void each_part(Visit visit) const {
+        polygon()->each_part(polygon()->box(), [&](const Polygon::Trapezoid &part) {
+            Patch patch{};
+            patch.corners = 4;
+            for (int i = 0; i < 4; ++i) put(patch, i, part.corner(i));
+            visit(patch);
+        });
+    }
 
 private:
+    void put(Patch &patch, int corner, const Point<2> &place) const {
+        const Point<2> p = plane_.project(place);
+        patch.corner[corner][0] = p[0];
+        patch.corner[corner][1] = p[1];
+    }
+
     // a tile has a plane of its own; other drawings use coordinates
     const MapPlane plane_;
 };
@@ -174,8 +218,14 @@ void stream(RangeScan<D> &pages, View &view, Picture &picture) {
         const PageView<D> &page = pages.page();
         view.enter(page);
         for (int s = 0; s < page.simplices(); ++s)
-            if (view.show(page, s, patch)) picture.add(patch);
+            if constexpr (D == 2 && std::is_same_v<Picture, Extent>)
+                view.show_parts(page, s, [&](const Patch &part) { picture.add(part); });
+            else if (view.show(page, s, patch))
+                picture.add(patch);
     }
+    if constexpr (D == 2 && std::is_same_v<Picture, Canvas>)
+        if (view.polygon() != nullptr)
+            picture.leave_only([&](const auto &keep) { view.each_part(keep); });
 }
 
 /// `region` is the part that the drawing shows with its margin; null: the whole mesh.
@@ -194,9 +244,13 @@ Portrait draw(const Host &host, const abacus_facts &facts, const abacus_drawing 
 } // namespace
 
 Portrait draw_mesh(const Host &host, const abacus_facts &facts, const abacus_drawing &drawing) {
-    if (shows_whole<2>(drawing))
-        return draw<2>(host, facts, drawing, 0, nullptr, FlatView(host, facts, drawing),
-                       ABACUS_RAMP_TERRAIN);
+    if (shows_whole<2>(drawing)) {
+        const Polygon *polygon = polygon_of(drawing.extent);
+        const std::optional<BoxRegion<2>> around =
+            polygon == nullptr ? std::nullopt : std::optional<BoxRegion<2>>(polygon->box());
+        return draw<2>(host, facts, drawing, 0, around ? &*around : nullptr,
+                       FlatView(host, facts, drawing), ABACUS_RAMP_TERRAIN);
+    }
     const std::int32_t margin = Canvas::margin_of(drawing);
     const abacus_drawing wider = widened(drawing, margin);
     const MapPlane plane(drawing.is_geographic != 0);

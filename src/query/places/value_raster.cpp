@@ -255,7 +255,8 @@ template <int D> void ValueRaster<D>::fill_from(const PageView<D> &page, int sim
         const auto in_row = static_cast<std::uint32_t>(row);
         const Columns columns = columns_of(corners, box, centre(in_row, 0));
         if (columns.first > columns.last) continue;
-        if (!is_wanted && !is_in<D>(how_.extent, page.region(simplex), corners)) return;
+        if (!is_wanted && !is_in<D>(without_polygon(how_.extent), page.region(simplex), corners))
+            return;
         is_wanted = true;
         fill_row(page, simplex, in_row, columns);
     }
@@ -316,6 +317,7 @@ void ValueRaster<D>::fill_row(const PageView<D> &page, int simplex, std::uint32_
             marks_[pixel(row, column)] = asked;
             continue;
         }
+        if (!may_count<D>(how_.extent, centre(row, column))) continue;
         const auto weights = barycentric_weights<D>(simplex_, centre(row, column));
         values_[pixel(row, column)] = weighted_mean(
             D + 1, [&](std::size_t i) { return weights[i]; },

@@ -3,6 +3,7 @@
 
 #include "query/pages/extent.hpp"
 #include "query/pages/page_simplex.hpp"
+#include "query/scan/narrowed.hpp"
 #include "query/scan/window.hpp"
 
 namespace abacus {
@@ -10,7 +11,7 @@ namespace abacus {
 template <int D> class CellFilter {
 public:
     CellFilter(const abacus_window &window, const abacus_extent &extent)
-        : window_(window), extent_(extent) {}
+        : window_(narrowed<D>(window, extent)), extent_(extent) {}
 
     /// The region of the window; null: the whole mesh.
     const Region<D> *region() const { return window_.region(); }

@@ -4,6 +4,7 @@
 #include "geometry/direction.hpp"
 #include "query/locate/edges_along.hpp"
 #include "query/pages/page_simplex.hpp"
+#include "query/scan/narrowed.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -37,7 +38,7 @@ FaceScan<D>::FaceScan(const Host &host, const abacus_facts &facts, const abacus_
                       int corners, const abacus_extent &extent, std::size_t cache_bytes,
                       std::optional<abacus_range> range)
     : host_(host), facts_(facts), corners_(corners), extent_(extent), cache_bytes_(cache_bytes),
-      range_(range), window_(window), vertex_values_(host, facts),
+      range_(range), window_(narrowed<D>(window, extent)), vertex_values_(host, facts),
       pages_(host, facts, window_.region(), pages_with<D>(range, vertex_values_)), memory_(host),
       known_(&memory_) {}
 
@@ -92,7 +93,11 @@ template <int D> bool FaceScan<D>::is_wanted() {
     if (range_ && !is_in_range_[vertices_[0]]) return false;
     if (corners_ == 1) return window_.contains(point(0));
     if (limits_edges(extent_) && !is_within<D>(extent_.max_edge, point(0), point(1))) return false;
-    return window_.meets(point(0), point(1)) && touches_region();
+    if (!window_.meets(point(0), point(1))) return false;
+    if constexpr (D == 2)
+        if (const Polygon *polygon = polygon_of(extent_))
+            return polygon->overlaps(point(0), point(1));
+    return touches_region();
 }
 
 template <int D> std::size_t FaceScan<D>::place(const FaceCorners &face) {

@@ -1,5 +1,7 @@
 #include "query/volume/volume.hpp"
 
+#include "geometry/clip_trapezoid.hpp"
+
 #include "query/scan/cell_scan.hpp"
 #include "sort/pacer.hpp"
 
@@ -50,6 +52,22 @@ template <int D> struct ValuedSimplex {
         return {seen_from_first(box.lower), seen_from_first(box.upper)};
     }
 };
+
+/// Calls visit(piece) for the parts of a simplex that count, cut at the border of a polygon. Its
+/// corner 0 is the origin of the piece.
+template <int D, class Visit>
+void clip_polygon(const ValuedSimplex<D> &cell, const Piece<D> &piece, const abacus_extent &extent,
+                  Visit &&visit) {
+    if constexpr (D == 2)
+        if (const Polygon *polygon = polygon_of(extent)) {
+            Box<2> box;
+            for (const Point<2> &corner : cell.corner) box.extend(corner);
+            return polygon->each_part(box, [&](const Polygon::Trapezoid &part) {
+                clip_trapezoid(piece, part, cell.corner[0], visit);
+            });
+        }
+    visit(piece);
+}
 
 template <int D>
 ValuedSimplex<D> cell_of(const abacus_simplex &simplex, const CornerValues &values) {
@@ -171,7 +189,7 @@ private:
 /// Adds the volume between two triangles. The smaller one is cut at the edges of the other, so that
 /// rounding errors are relative to its own lengths. The choice does not depend on their order.
 void add_between(const ValuedSimplex<2> &first, const ValuedSimplex<2> &second,
-                 const Box<2> &window, Volume<2> &volume) {
+                 const Box<2> &window, const abacus_extent &extent, Volume<2> &volume) {
     const Piece<2> whole_first = first.piece(), whole_second = second.piece();
     const double area = measure(whole_first), second_area = measure(whole_second);
     const bool is_first_cut =
@@ -185,8 +203,10 @@ void add_between(const ValuedSimplex<2> &first, const ValuedSimplex<2> &second,
             const double height = edges.value_at(piece.corner[i], other.value);
             piece.value[i] = is_first_cut ? piece.value[i] - height : height - piece.value[i];
         }
-        clip_box<2>(piece, cut.seen_from_first(window),
-                    [&](const Piece<2> &part) { volume.add(part, steepness); });
+        clip_box<2>(piece, cut.seen_from_first(window), [&](const Piece<2> &in_window) {
+            clip_polygon(cut, in_window, extent,
+                         [&](const Piece<2> &part) { volume.add(part, steepness); });
+        });
     });
 }
 
@@ -236,8 +256,11 @@ abacus_volume volume_above(const Host &host, const abacus_facts &facts,
                         ValuedSimplex<D> cell = cell_of<D>(simplex, values);
                         if (!cell.has_values()) return;
                         for (double &value : cell.value) value -= base;
-                        clip_box<D>(cell.piece(), cell.seen_from_first(window),
-                                    [&](const Piece<D> &piece) { volume.add(piece); });
+                        clip_box<D>(
+                            cell.piece(), cell.seen_from_first(window), [&](const Piece<D> &piece) {
+                                clip_polygon(cell, piece, surface.extent,
+                                             [&](const Piece<D> &part) { volume.add(part); });
+                            });
                     });
     return volume.sums();
 }
@@ -247,7 +270,8 @@ abacus_volume volume_between(const Host &host, const abacus_facts &facts,
                              const abacus_facts &other, std::uint32_t other_attribute,
                              std::size_t cache_bytes) {
     const Box<2> window = box_of<2>(surface.window);
-    const abacus_extent extent{surface.extent.max_edge, no_region}; // regions are the mesh's own
+    const abacus_extent extent{surface.extent.max_edge, no_region, // regions are the mesh's own
+                               surface.extent.area};
     Overlaps overlaps(other_host, other, other_attribute, extent, window, cache_bytes);
     // A small window needs only its own pages, not those of the hull.
     const abacus_window around =
@@ -267,7 +291,7 @@ abacus_volume volume_between(const Host &host, const abacus_facts &facts,
             overlaps.each(corners, [&](const Corners<2> &at, const std::array<double, 3> &heights) {
                 const ValuedSimplex<2> second([&](int i) { return *at[i]; },
                                               [&](int i) { return heights[i]; });
-                if (second.has_values()) add_between(first, second, window, volume);
+                if (second.has_values()) add_between(first, second, window, surface.extent, volume);
             });
         });
     return volume.sums();

@@ -1,5 +1,5 @@
 /*
- * extent_arguments.c: the arguments that say which simplices of a mesh count: max_edge and within.
+ * extent_arguments.c: the arguments that say which part of a mesh counts: max_edge and within.
  */
 #include "postgres.h"
 
@@ -12,6 +12,8 @@
 #include "utils/memutils.h"
 
 #include "pg/mesh/regions_table.h"
+#include "pg/sql/arguments/area.h"
+#include "pg/geos/area_text.h"
 #include "pg/sql/arguments/extent_arguments.h"
 
 /* The longest edge to return, or that simplices may have; 0 if any length is allowed. */
@@ -62,25 +64,18 @@ remember(Oid mesh, uint64 stamp, const char *name, uint32 number)
 	last = (LastRegion) {GetUserId(), mesh, stamp, copy, number};
 }
 
-/*
- * The number of the region that is named; 0 if none is. Its name is remembered for the next call, if
- * the stamp of the mesh is given.
- */
-uint32
-extent_within(FunctionCallInfo fcinfo, int argument, Oid mesh, const abacus_facts *facts, uint64 stamp)
+/* The number of the region, which is remembered for the next call if the stamp of the mesh is given. */
+static uint32
+region_of(const char *name, Oid mesh, const abacus_facts *facts, uint64 stamp)
 {
-	char	   *name;
 	uint32		number;
 
-	if (PG_ARGISNULL(argument))
-		return 0;
-	name = text_to_cstring(PG_GETARG_TEXT_PP(argument));
 	if (facts->census.regions == 0)
 		ereport(ERROR,
 				(errcode(ERRCODE_UNDEFINED_OBJECT),
 				 errmsg("mesh \"%s\" has no region \"%s\"", get_rel_name(mesh), name),
 				 errdetail("It has no regions."),
-				 errhint("Make regions with abacus_region().")));
+				 errhint("Make regions with abacus_region(), or give a polygon as WKT.")));
 	if (stamp != 0 && last.stamp == stamp && last.mesh == mesh && last.user == GetUserId() &&
 		strcmp(last.name, name) == 0)
 		return last.number;
@@ -90,11 +85,34 @@ extent_within(FunctionCallInfo fcinfo, int argument, Oid mesh, const abacus_fact
 	return number;
 }
 
+/*
+ * Sets the region or the polygon of an extent. A polygon lives as long as its owner, a host; without one it
+ * is remembered, and lives until the next one.
+ */
+void
+extent_within(FunctionCallInfo fcinfo, int argument, Oid mesh, const abacus_facts *facts, uint64 stamp,
+			  Host *owner, abacus_extent *extent)
+{
+	char	   *given;
+
+	extent->region = 0;
+	extent->area = NULL;
+	if (PG_ARGISNULL(argument))
+		return;
+	given = text_to_cstring(PG_GETARG_TEXT_PP(argument));
+	if (!area_text_is(given))
+		extent->region = region_of(given, mesh, facts, stamp);
+	else if (owner != NULL)
+		extent->area = area_open(given, &facts->form, get_rel_name(mesh), owner->home);
+	else
+		extent->area = area_remembered(given, &facts->form, get_rel_name(mesh));
+}
+
 /* Both arguments. */
 void
 extent_arguments(FunctionCallInfo fcinfo, int max_edge, int within, Oid mesh, const abacus_header *header,
-				 abacus_extent *extent)
+				 Host *owner, abacus_extent *extent)
 {
 	extent->max_edge = extent_max_edge(fcinfo, max_edge);
-	extent->region = extent_within(fcinfo, within, mesh, &header->facts, header->stamp);
+	extent_within(fcinfo, within, mesh, &header->facts, header->stamp, owner, extent);
 }

@@ -290,7 +290,7 @@ fixed_edges_put(Reader *reader, const abacus_window *window, const abacus_extent
 				ReturnSetInfo *set)
 {
 	const MeshPages *pages = mesh_pages(reader->host);
-	bool		is_part = window->kind != ABACUS_NO_WINDOW || extent->max_edge > 0 || extent->region > 0;
+	bool		is_part = window->kind != ABACUS_NO_WINDOW || extent->max_edge > 0 || extent->region > 0 || extent->area != NULL;
 	EdgeRows	edges = {0};
 	NamedRows  *part = NULL;
 	Oid			table;

@@ -228,7 +228,7 @@ abacus_sql_draw(PG_FUNCTION_ARGS)
 	drawing.attribute = attribute_or_label(fcinfo, DRAW_ATTRIBUTE, abacus_names_of(&reader->header));
 	drawing.edges = PG_ARGISNULL(DRAW_EDGES) || PG_GETARG_BOOL(DRAW_EDGES);
 	drawing.exaggeration = drawing_factor(fcinfo, DRAW_EXAGGERATION, "exaggeration");
-	extent_arguments(fcinfo, DRAW_MAX_EDGE, DRAW_WITHIN, PG_GETARG_OID(DRAW_MESH), &reader->header,
+	extent_arguments(fcinfo, DRAW_MAX_EDGE, DRAW_WITHIN, PG_GETARG_OID(DRAW_MESH), &reader->header, reader->host,
 					 &drawing.extent);
 	drawing_range(fcinfo, DRAW_RANGE, &drawing);
 	style(fcinfo, DRAW_STYLE, &drawing);

@@ -199,7 +199,7 @@ abacus_sql_tile_picture(PG_FUNCTION_ARGS)
 	drawing_range(fcinfo, PICTURE_RANGE, &drawing);
 	drawing.edges = PG_ARGISNULL(PICTURE_EDGES) || PG_GETARG_BOOL(PICTURE_EDGES);
 	drawing.exaggeration = drawing_factor(fcinfo, PICTURE_EXAGGERATION, "exaggeration");
-	extent_arguments(fcinfo, PICTURE_MAX_EDGE, PICTURE_WITHIN, PG_GETARG_OID(TILE_MESH), &reader->header,
+	extent_arguments(fcinfo, PICTURE_MAX_EDGE, PICTURE_WITHIN, PG_GETARG_OID(TILE_MESH), &reader->header, reader->host,
 					 &drawing.extent);
 	drawing_ramp(fcinfo, PICTURE_RAMP, &drawing);
 	drawing_contours(fcinfo, PICTURE_CONTOURS, &drawing);
@@ -229,7 +229,7 @@ abacus_sql_tile_vector(PG_FUNCTION_ARGS)
 	host = reader->host;
 	kind.attribute = tile_attribute(fcinfo, VECTOR_ATTRIBUTE, abacus_names_of(&reader->header));
 	kind.contour_interval = drawing_interval(fcinfo, VECTOR_CONTOURS);
-	extent_arguments(fcinfo, VECTOR_MAX_EDGE, VECTOR_WITHIN, PG_GETARG_OID(TILE_MESH), &reader->header,
+	extent_arguments(fcinfo, VECTOR_MAX_EDGE, VECTOR_WITHIN, PG_GETARG_OID(TILE_MESH), &reader->header, reader->host,
 					 &kind.extent);
 	host_run(host, abacus_tile_vector, &host->table, &reader->header.facts, &tile, &kind, &memory,
 			 &bytes);
@@ -257,7 +257,7 @@ abacus_sql_tile_terrain(PG_FUNCTION_ARGS)
 	header_require_attributes(&reader->header.facts);
 	kind.width = tile_size(fcinfo, TERRAIN_SIZE);
 	kind.attribute = (uint32) tile_attribute(fcinfo, TERRAIN_ATTRIBUTE, abacus_names_of(&reader->header));
-	extent_arguments(fcinfo, TERRAIN_MAX_EDGE, TERRAIN_WITHIN, PG_GETARG_OID(TILE_MESH), &reader->header,
+	extent_arguments(fcinfo, TERRAIN_MAX_EDGE, TERRAIN_WITHIN, PG_GETARG_OID(TILE_MESH), &reader->header, reader->host,
 					 &kind.extent);
 	kind.fill = PG_ARGISNULL(TERRAIN_FILL) ? 0 : PG_GETARG_FLOAT8(TERRAIN_FILL);
 	if (!isfinite(kind.fill))

@@ -13,6 +13,7 @@
 #include "utils/builtins.h"
 #include "utils/memutils.h"
 
+#include "abacus/area.h"
 #include "abacus/contours.h"
 #include "pg/base/settings.h"
 #include "pg/base/sql_function.h"
@@ -24,6 +25,7 @@
 #include "pg/sql/arguments/missing.h"
 #include "pg/sql/arguments/window.h"
 #include "pg/sql/rows/answers.h"
+#include "pg/geos/clipped_rings.h"
 
 SQL_FUNCTION(abacus_sql_contours);
 
@@ -77,24 +79,95 @@ path_array(const double *path, size_t points)
 	return array;
 }
 
-/* Adds the row of a line or ring; called by the core. */
-static abacus_host_status
-put_contour(void *context, int64_t id, double value, int32_t closed, const double *path,
-			size_t count)
+/* Adds the row of a line or ring. */
+static void
+add_contour(const Answers *answers, int64 id, double value, bool closed, const double *path, size_t count)
 {
-	Answers    *answers = context;
 	Datum		values[CONTOUR_COLUMNS];
 	bool		isnull[CONTOUR_COLUMNS] = {false};
 
-	GUARD_BEGIN();
 	values[CONTOUR_ID] = Int64GetDatum(id);
 	values[CONTOUR_VALUE] = Float8GetDatum(value);
 	values[CONTOUR_CLOSED] = BoolGetDatum(closed != 0);
 	values[CONTOUR_PATH] = PointerGetDatum(path_array(path, count));
 	tuplestore_putvalues(answers->set->setResult, answers->set->setDesc, values, isnull);
 	pfree(DatumGetPointer(values[CONTOUR_PATH]));
+}
+
+/* Called by the core. */
+static abacus_host_status
+put_contour(void *context, int64_t id, double value, int32_t closed, const double *path, size_t count)
+{
+	Answers    *answers = context;
+
+	GUARD_BEGIN();
+	add_contour(answers, id, value, closed != 0, path, count);
 	GUARD_END(answers->host);
 	return ABACUS_HOST_OK;
+}
+
+/* ---- Bands in a polygon ------------------------------------------------------------------- */
+
+typedef struct ClippedBands
+{
+	Answers    *answers;
+	const char *polygon;
+	RingSet		band,			/* that is read */
+				clipped;
+	int64		given,			/* its number */
+				id;				/* of the last one with a part in the polygon */
+	double		value;
+} ClippedBands;
+
+/* Adds the rows of the band that was read. */
+static void
+end_band(ClippedBands *bands)
+{
+	const double *path;
+
+	clip_rings(&bands->band, bands->polygon, &bands->clipped);
+	ring_set_clear(&bands->band);
+	path = bands->clipped.places;
+	if (bands->clipped.rings > 0)
+		bands->id++;
+	for (size_t i = 0; i < bands->clipped.rings; path += 2 * bands->clipped.sizes[i++])
+		add_contour(bands->answers, bands->id, bands->value, true, path, bands->clipped.sizes[i]);
+}
+
+/* Called by the core. */
+static abacus_host_status
+put_ring(void *context, int64_t id, double value, int32_t closed, const double *path, size_t count)
+{
+	ClippedBands *bands = context;
+
+	GUARD_BEGIN();
+	if (id != bands->given)
+		end_band(bands);
+	bands->given = id;
+	bands->value = value;
+	memcpy(ring_set_add(&bands->band, count), path, count * 2 * sizeof(double));
+	GUARD_END(bands->answers->host);
+	return ABACUS_HOST_OK;
+}
+
+static void
+put_bands_within(Reader *reader, const abacus_window *window, const abacus_contouring *how, const char *polygon,
+				 Answers *answers)
+{
+	ClippedBands bands = {.answers = answers, .polygon = polygon};
+	abacus_contouring whole = *how;
+	abacus_window around = *window;
+
+	if (window->kind == ABACUS_NO_WINDOW && abacus_area_box(how->extent.area, around.lower, around.upper))
+		around.kind = ABACUS_BOX_WINDOW;
+	ring_set_begin(&bands.band);
+	ring_set_begin(&bands.clipped);
+	whole.extent.area = NULL;
+	host_run(reader->host, abacus_contours, &reader->host->table, &reader->header.facts, &around, &whole,
+			 setting_query_sort_bytes() + setting_cache_bytes(), put_ring, &bands);
+	end_band(&bands);
+	ring_set_end(&bands.band);
+	ring_set_end(&bands.clipped);
 }
 
 static int
@@ -176,12 +249,15 @@ abacus_sql_contours(PG_FUNCTION_ARGS)
 	how.bands = !PG_ARGISNULL(ARGUMENT_POLYGONIZE) && PG_GETARG_BOOL(ARGUMENT_POLYGONIZE);
 	how.attribute = attribute_argument(fcinfo, ARGUMENT_ATTRIBUTE, abacus_names_of(&reader->header));
 	extent_arguments(fcinfo, ARGUMENT_MAX_EDGE, ARGUMENT_WITHIN, PG_GETARG_OID(ARGUMENT_MESH),
-					 &reader->header, &how.extent);
+					 &reader->header, reader->host, &how.extent);
 	window_arguments(fcinfo, ARGUMENT_LOWER, WINDOW_BOX, &reader->header.facts.form, &window);
 	answers.host = reader->host;
 	progress_begin(&reader->host->progress, PG_GETARG_OID(ARGUMENT_MESH));
-	host_run(reader->host, abacus_contours, &reader->host->table, &reader->header.facts, &window, &how,
-			 setting_query_sort_bytes() + setting_cache_bytes(), put_contour, &answers);
+	if (how.bands != 0 && how.extent.area != NULL)
+		put_bands_within(reader, &window, &how, text_to_cstring(PG_GETARG_TEXT_PP(ARGUMENT_WITHIN)), &answers);
+	else
+		host_run(reader->host, abacus_contours, &reader->host->table, &reader->header.facts, &window, &how,
+				 setting_query_sort_bytes() + setting_cache_bytes(), put_contour, &answers);
 	progress_end(&reader->host->progress);
 	if (tuplestore_tuple_count(answers.set->setResult) == 0)
 		notice_missing_values(reader, how.attribute);

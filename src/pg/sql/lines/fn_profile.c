@@ -83,7 +83,7 @@ abacus_sql_profile(PG_FUNCTION_ARGS)
 	answers.host = cached->host;
 	answers.dimension = cached->dimension;
 	interpolation_attribute(fcinfo, 2, abacus_names_of(&cached->header), &how);
-	extent_arguments(fcinfo, 3, 4, PG_GETARG_OID(0), &cached->header, &how.extent);
+	extent_arguments(fcinfo, 3, 4, PG_GETARG_OID(0), &cached->header, NULL, &how.extent);
 	path = path_argument(fcinfo, 1, cached->dimension, &corners);
 	host_run(answers.host, abacus_mesh_profile, cached->mesh, how.attribute[0], &how.extent, path,
 			 corners, put_place, &answers);

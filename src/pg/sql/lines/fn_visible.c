@@ -91,7 +91,7 @@ abacus_sql_visible(PG_FUNCTION_ARGS)
 	header_require_dimension(&cached->header.facts.form, 2,
 							 "Use a terrain: a mesh in the plane with the height as an attribute.");
 	interpolation_attribute(fcinfo, SIGHT_ATTRIBUTE, abacus_names_of(&cached->header), &how);
-	extent_arguments(fcinfo, SIGHT_MAX_EDGE, SIGHT_WITHIN, PG_GETARG_OID(SIGHT_MESH), &cached->header,
+	extent_arguments(fcinfo, SIGHT_MAX_EDGE, SIGHT_WITHIN, PG_GETARG_OID(SIGHT_MESH), &cached->header, NULL,
 					 &how.extent);
 	end_argument(fcinfo, SIGHT_OBSERVER, SIGHT_OBSERVER_HEIGHT, "observer", &observer);
 	end_argument(fcinfo, SIGHT_TARGET, SIGHT_TARGET_HEIGHT, "target", &target);

@@ -288,7 +288,7 @@ abacus_sql_drape(PG_FUNCTION_ARGS)
 	interpolation_attribute(fcinfo, DRAPE_ATTRIBUTE, abacus_names_of(&drape.mesh->header), &drape.how);
 	drape.how.outside = word_argument(fcinfo, DRAPE_OUTSIDE, outsides, "outside",
 									  "Use null, or nearest for the value of the nearest vertex.");
-	extent_arguments(fcinfo, DRAPE_MAX_EDGE, DRAPE_WITHIN, PG_GETARG_OID(DRAPE_MESH), &drape.mesh->header,
+	extent_arguments(fcinfo, DRAPE_MAX_EDGE, DRAPE_WITHIN, PG_GETARG_OID(DRAPE_MESH), &drape.mesh->header, NULL,
 					 &drape.how.extent);
 	drape.densifies = !PG_ARGISNULL(DRAPE_DENSIFY) && PG_GETARG_BOOL(DRAPE_DENSIFY);
 	drape.in = geometry_bytes(type, PG_GETARG_DATUM(DRAPE_GEOMETRY));

@@ -54,7 +54,7 @@ begin(FunctionCallInfo fcinfo, FuncCallContext *set, WindowForm form, Wanted wan
 		window_arguments(fcinfo, 1, form, &reader->header.facts.form, &window);
 	if (is_cells)
 		extent.max_edge = extent_max_edge(fcinfo, 3);
-	extent.region = extent_within(fcinfo, PG_NARGS() - 1, PG_GETARG_OID(0), &reader->header.facts, 0);
+	extent_within(fcinfo, PG_NARGS() - 1, PG_GETARG_OID(0), &reader->header.facts, 0, host, &extent);
 	host_run(host, abacus_cells_open, &host->table, &reader->header.facts, &window, &extent,
 			 has_label ? &label : NULL, &cells);
 	host_own(host, cells, (void (*) (void *)) abacus_cells_close);

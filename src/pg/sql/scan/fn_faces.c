@@ -62,7 +62,7 @@ begin(FunctionCallInfo fcinfo, FuncCallContext *set, WindowForm form, Wanted wan
 
 	window_arguments(fcinfo, 1, form, &reader->header.facts.form, &window);
 	if (are_edges(wanted))
-		extent_arguments(fcinfo, 3, PG_NARGS() - 1, PG_GETARG_OID(0), &reader->header, &extent);
+		extent_arguments(fcinfo, 3, PG_NARGS() - 1, PG_GETARG_OID(0), &reader->header, reader->host, &extent);
 	if (has_range)
 		host_run(host, abacus_faces_open_range, &host->table, &reader->header.facts, &window, &range,
 				 setting_cache_bytes(), &faces);
@@ -166,7 +166,7 @@ fixed_edges(FunctionCallInfo fcinfo, WindowForm form)
 	if (PG_ARGISNULL(0))
 		PG_RETURN_NULL();
 	reader = reader_open(PG_GETARG_OID(0), CurrentMemoryContext);
-	extent_arguments(fcinfo, 3, PG_NARGS() - 1, PG_GETARG_OID(0), &reader->header, &extent);
+	extent_arguments(fcinfo, 3, PG_NARGS() - 1, PG_GETARG_OID(0), &reader->header, reader->host, &extent);
 	window_arguments(fcinfo, 1, form, &reader->header.facts.form, &window);
 	fixed_edges_put(reader, &window, &extent, false, (ReturnSetInfo *) fcinfo->resultinfo);
 	host_release(reader->host);

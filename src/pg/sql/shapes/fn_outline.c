@@ -7,14 +7,17 @@
 #include <math.h>
 
 #include "funcapi.h"
+#include "utils/builtins.h"
 
 #include "abacus/shapes.h"
 #include "pg/base/settings.h"
 #include "pg/base/sql_function.h"
+#include "pg/host/guard.h"
 #include "pg/mesh/reader.h"
 #include "pg/sql/arguments/extent_arguments.h"
 #include "pg/sql/arguments/window.h"
 #include "pg/sql/rows/answers.h"
+#include "pg/sql/shapes/clipped_outline.h"
 
 SQL_FUNCTION(abacus_sql_hull);
 SQL_FUNCTION(abacus_sql_alpha_shape);
@@ -51,24 +54,36 @@ alpha_arguments(FunctionCallInfo fcinfo, const abacus_form *form, abacus_outline
 		kind->fills_holes = !PG_GETARG_BOOL(2);
 }
 
-/* Adds a row; called by the core. */
-static abacus_host_status
-put_row(void *context, const abacus_outline_row *row)
+/* Adds a row. */
+static void
+add_row(const Answers *answers, const abacus_outline_row *row, bool is_vertex)
 {
-	Answers    *answers = context;
 	Datum		values[OUTLINE_COLUMNS] = {0};
 	bool		isnull[OUTLINE_COLUMNS] = {false};
 
 	values[OUTLINE_RING] = Int64GetDatum((int64) row->ring);
 	values[OUTLINE_POSITION] = Int64GetDatum((int64) row->position);
 	values[OUTLINE_VERTEX] = Int64GetDatum(row->vertex);
+	isnull[OUTLINE_VERTEX] = !is_vertex;
 	for (uint32 i = 0; i < ABACUS_MAX_DIMENSION; i++)
 	{
 		isnull[OUTLINE_X + i] = i >= answers->dimension;
 		if (i < answers->dimension)
 			values[OUTLINE_X + i] = Float8GetDatum(row->point[i]);
 	}
-	return answers_put(answers, values, isnull);
+	answers_add(answers, values, isnull);
+}
+
+/* Called by the core. */
+static abacus_host_status
+put_row(void *context, const abacus_outline_row *row)
+{
+	Answers    *answers = context;
+
+	GUARD_BEGIN();
+	add_row(answers, row, true);
+	GUARD_END(answers->host);
+	return ABACUS_HOST_OK;
 }
 
 static Datum
@@ -88,10 +103,13 @@ outline(FunctionCallInfo fcinfo, bool is_alpha)
 	if (is_alpha)
 		alpha_arguments(fcinfo, &reader->header.facts.form, &kind);
 	else
-		extent_arguments(fcinfo, 1, 2, PG_GETARG_OID(0), &reader->header, &kind.extent);
+		extent_arguments(fcinfo, 1, 2, PG_GETARG_OID(0), &reader->header, host, &kind.extent);
 	progress_begin(&host->progress, PG_GETARG_OID(0));
-	host_run(host, abacus_outline, &host->table, &reader->header.facts, &kind, setting_query_sort_bytes(),
-			 setting_cache_bytes(), put_row, &answers);
+	if (kind.extent.area != NULL)
+		clipped_outline(reader, &kind, text_to_cstring(PG_GETARG_TEXT_PP(2)), add_row, &answers);
+	else
+		host_run(host, abacus_outline, &host->table, &reader->header.facts, &kind, setting_query_sort_bytes(),
+				 setting_cache_bytes(), put_row, &answers);
 	progress_end(&host->progress);
 	host_release(host);
 	host_destroy(host);

@@ -52,7 +52,7 @@ find_gradient(FunctionCallInfo fcinfo, double *gradient)
 		return 0;
 	cached = mesh_cache_get(PG_GETARG_OID(0));
 	interpolation_attribute(fcinfo, first + HOW_ATTRIBUTE, abacus_names_of(&cached->header), &how);
-	extent_arguments(fcinfo, first + HOW_MAX_EDGE, first + HOW_WITHIN, PG_GETARG_OID(0), &cached->header,
+	extent_arguments(fcinfo, first + HOW_MAX_EDGE, first + HOW_WITHIN, PG_GETARG_OID(0), &cached->header, NULL,
 					 &how.extent);
 	units_tell_slopes(&cached->header.facts.form);
 	if (!place_arguments(fcinfo, first - 1, &cached->header.facts.form, point))

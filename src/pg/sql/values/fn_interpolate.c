@@ -52,7 +52,7 @@ abacus_sql_interpolate(PG_FUNCTION_ARGS)
 	cached = mesh_cache_get(PG_GETARG_OID(0));
 	interpolation_attribute(fcinfo, first + HOW_ATTRIBUTE, abacus_names_of(&cached->header), &how);
 	interpolation_how(fcinfo, first + HOW_METHOD, &how);
-	extent_arguments(fcinfo, first + HOW_MAX_EDGE, first + HOW_WITHIN, PG_GETARG_OID(0), &cached->header,
+	extent_arguments(fcinfo, first + HOW_MAX_EDGE, first + HOW_WITHIN, PG_GETARG_OID(0), &cached->header, NULL,
 					 &how.extent);
 	if (!place_arguments(fcinfo, first - 1, &cached->header.facts.form, point))
 		PG_RETURN_NULL();
@@ -82,7 +82,7 @@ abacus_sql_interpolate_places(PG_FUNCTION_ARGS)
 	interpolation_attributes(fcinfo, 2 + HOW_ATTRIBUTE, read.names, &how);
 	interpolation_how(fcinfo, 2 + HOW_METHOD, &how);
 	how.extent.max_edge = extent_max_edge(fcinfo, 2 + HOW_MAX_EDGE);
-	how.extent.region = extent_within(fcinfo, 2 + HOW_WITHIN, PG_GETARG_OID(0), read.names.facts, 0);
+	extent_within(fcinfo, 2 + HOW_WITHIN, PG_GETARG_OID(0), read.names.facts, 0, read.host, &how.extent);
 	places_fetch(&read);
 	answers.host = read.host;
 	answers_have_arrays(&answers, how.attributes);

@@ -114,7 +114,7 @@ begin(FunctionCallInfo fcinfo, FuncCallContext *set)
 
 	interpolation_attribute(fcinfo, RASTER_ATTRIBUTE, abacus_names_of(&reader->header), &how);
 	interpolation_how(fcinfo, RASTER_METHOD, &how);
-	extent_arguments(fcinfo, RASTER_MAX_EDGE, RASTER_WITHIN, PG_GETARG_OID(RASTER_MESH), &reader->header,
+	extent_arguments(fcinfo, RASTER_MAX_EDGE, RASTER_WITHIN, PG_GETARG_OID(RASTER_MESH), &reader->header, reader->host,
 					 &how.extent);
 	raster_arguments(fcinfo, reader->header.facts.form.dimension, &raster);
 	units_tell_window(&reader->header.facts.form, raster.lower, raster.upper);

@@ -51,7 +51,7 @@ abacus_sql_weights(PG_FUNCTION_ARGS)
 	cached = mesh_cache_get(PG_GETARG_OID(0));
 	interpolation_how(fcinfo, 1 + given + HOW_METHOD, &how);
 	extent_arguments(fcinfo, 1 + given + HOW_MAX_EDGE, 1 + given + HOW_WITHIN, PG_GETARG_OID(0),
-					 &cached->header, &how.extent);
+					 &cached->header, NULL, &how.extent);
 	if (!place_arguments(fcinfo, given, &cached->header.facts.form, point))
 		PG_RETURN_NULL();
 	status = host_run(cached->host, abacus_mesh_weigh, cached->mesh, &how, point, &weights,
@@ -105,7 +105,7 @@ abacus_sql_weights_places(PG_FUNCTION_ARGS)
 	places_open(&read, PG_GETARG_OID(0), ABACUS_MESH, text_to_cstring(PG_GETARG_TEXT_PP(1)));
 	interpolation_how(fcinfo, 2 + HOW_METHOD, &how);
 	how.extent.max_edge = extent_max_edge(fcinfo, 2 + HOW_MAX_EDGE);
-	how.extent.region = extent_within(fcinfo, 2 + HOW_WITHIN, PG_GETARG_OID(0), read.names.facts, 0);
+	extent_within(fcinfo, 2 + HOW_WITHIN, PG_GETARG_OID(0), read.names.facts, 0, read.host, &how.extent);
 	places_fetch(&read);
 	answers.host = read.host;
 	host_run(read.host, abacus_places_weigh, read.places, &how, put_weights, &answers);

@@ -58,12 +58,13 @@ attribute(FunctionCallInfo fcinfo, int argument, abacus_names names)
 }
 
 static void
-surface_arguments(FunctionCallInfo fcinfo, const abacus_header *header, abacus_surface *surface)
+surface_arguments(FunctionCallInfo fcinfo, const Reader *reader, abacus_surface *surface)
 {
-	abacus_names names = abacus_names_of(header);
+	abacus_names names = abacus_names_of(&reader->header);
 
 	window_arguments(fcinfo, OF_LOWER, WINDOW_BOX, &names.facts->form, &surface->window);
-	extent_arguments(fcinfo, OF_MAX_EDGE, PG_NARGS() - 1, PG_GETARG_OID(OF_MESH), header, &surface->extent);
+	extent_arguments(fcinfo, OF_MAX_EDGE, PG_NARGS() - 1, PG_GETARG_OID(OF_MESH), &reader->header, reader->host,
+					 &surface->extent);
 	surface->attribute = attribute(fcinfo, OF_ATTRIBUTE, names);
 }
 
@@ -98,7 +99,7 @@ volume_above(FunctionCallInfo fcinfo, double base)
 				 errhint("Give the height above which volumes are cut, and below which they are fill.")));
 	reader = reader_open(PG_GETARG_OID(OF_MESH), CurrentMemoryContext);
 	host = reader->host;
-	surface_arguments(fcinfo, &reader->header, &surface);
+	surface_arguments(fcinfo, reader, &surface);
 	units_tell_volumes(&reader->header.facts.form);
 	progress_begin(&host->progress, PG_GETARG_OID(OF_MESH));
 	host_run(host, abacus_volume_above, &host->table, &reader->header.facts, &surface, base, &volume);
@@ -165,7 +166,7 @@ volume_between(FunctionCallInfo fcinfo, Oid other)
 
 	require_plane(first);
 	require_plane(second);
-	surface_arguments(fcinfo, &first->header, &surface);
+	surface_arguments(fcinfo, first, &surface);
 	units_tell_volumes(&first->header.facts.form);
 	other_attribute = attribute(fcinfo, other_name, abacus_names_of(&second->header));
 	progress_begin(&first->host->progress, PG_GETARG_OID(OF_MESH));

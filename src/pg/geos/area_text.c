@@ -1,0 +1,194 @@
+/*
+ * area_text.c: polygons as text: WKT, EWKT, or WKB and EWKB in hexadecimal digits, as PostGIS writes
+ * geometries.
+ *
+ * GEOS reads them and says whether they are valid. It allocates memory of its own, so what it holds
+ * is freed whatever happens.
+ */
+#include "postgres.h"
+
+#include <ctype.h>
+#include <geos_c.h>
+
+#include "pg/port/port.h"
+#include "pg/geos/area_text.h"
+#include "pg/geos/geos.h"
+
+/* Behind "SRID=number;". */
+static const char *
+behind_srid(const char *text, int32 *srid)
+{
+	char	   *end;
+	long		number;
+
+	*srid = 0;
+	if (pg_strncasecmp(text, "SRID=", 5) != 0)
+		return text;
+	number = strtol(text + 5, &end, 10);
+	if (end == text + 5 || *end != ';' || number < 0 || number > PG_INT32_MAX)
+		return text;
+	*srid = (int32) number;
+	return end + 1;
+}
+
+static const char *
+behind_spaces(const char *text)
+{
+	while (isspace((unsigned char) *text))
+		text++;
+	return text;
+}
+
+/* Whether all are hexadecimal digits, of which WKB begins with a byte order of 0 or 1. */
+static bool
+is_hexadecimal(const char *text)
+{
+	size_t		length = strlen(text);
+
+	return length >= 18 && length % 2 == 0 && text[0] == '0' && (text[1] == '0' || text[1] == '1') &&
+		strspn(text, "0123456789abcdefABCDEF") == length;
+}
+
+/* Whether a text is a geometry, and no name: WKT has parentheses, or says that it is empty. */
+bool
+area_text_is(const char *text)
+{
+	static const char *const kinds[] = {
+		"MULTIPOLYGON", "POLYGON", "MULTIPOINT", "POINT", "MULTILINESTRING", "LINESTRING", "LINEARRING",
+		"GEOMETRYCOLLECTION", "CURVEPOLYGON", "MULTISURFACE", "TIN", "TRIANGLE", "POLYHEDRALSURFACE"
+	};
+	int32		srid;
+
+	text = behind_spaces(behind_srid(behind_spaces(text), &srid));
+	if (is_hexadecimal(text))
+		return true;
+	for (size_t i = 0; i < lengthof(kinds); i++)
+	{
+		size_t		length = strlen(kinds[i]);
+		const char *rest = text + length;
+
+		if (pg_strncasecmp(text, kinds[i], length) != 0 || isalnum((unsigned char) *rest))
+			continue;
+		rest = behind_spaces(rest);
+		while (*rest != '\0' && strchr("zmZM", *rest) != NULL)
+			rest++;
+		rest = behind_spaces(rest);
+		return *rest == '(' || pg_strcasecmp(rest, "EMPTY") == 0;
+	}
+	return false;
+}
+
+pg_noreturn static void
+refuse(const char *detail, const char *hint)
+{
+	ereport(ERROR,
+			(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+			 errmsg("within is not a polygon that can be used"),
+			 errdetail_internal("%s", detail),
+			 errhint("%s", hint)));
+}
+
+static void
+require_polygon(Geos *geos, const GEOSGeometry *geometry)
+{
+	int			kind = GEOSGeomTypeId_r(geos->handle, geometry);
+
+	if (kind != GEOS_POLYGON && kind != GEOS_MULTIPOLYGON)
+	{
+		char	   *name = GEOSGeomType_r(geos->handle, geometry);
+		char	   *detail = psprintf("It is a %s.", name);
+
+		GEOSFree_r(geos->handle, name);
+		refuse(detail, "Give the name of a region, a Polygon or a MultiPolygon.");
+	}
+	if (GEOSisValid_r(geos->handle, geometry) != 1)
+	{
+		char	   *reason = GEOSisValidReason_r(geos->handle, geometry);
+		char	   *detail = reason == NULL ? geos_message(geos) : pstrdup(reason);
+
+		GEOSFree_r(geos->handle, reason);
+		refuse(detail, "Make it valid with ST_MakeValid.");
+	}
+}
+
+static void
+add_ring(Geos *geos, const GEOSGeometry *ring, AreaText *area, size_t *at)
+{
+	const GEOSCoordSequence *points = GEOSGeom_getCoordSeq_r(geos->handle, ring);
+	unsigned	count = 0;
+
+	geos_require(geos, points != NULL && GEOSCoordSeq_getSize_r(geos->handle, points, &count) == 1);
+	if (count == 0)
+		return;
+	geos_require(geos, GEOSCoordSeq_copyToBuffer_r(geos->handle, points, area->points + 2 * *at, 0, 0) == 1);
+	area->sizes[area->rings++] = count;
+	*at += count;
+}
+
+/* Copies all rings. */
+static void
+take_rings(Geos *geos, const GEOSGeometry *geometry, AreaText *area)
+{
+	int			parts = GEOSGetNumGeometries_r(geos->handle, geometry);
+	int			points = GEOSGetNumCoordinates_r(geos->handle, geometry);
+	size_t		rings = 0,
+				at = 0;
+
+	geos_require(geos, parts >= 0 && points >= 0);
+	for (int i = 0; i < parts; i++)
+		rings += 1 + GEOSGetNumInteriorRings_r(geos->handle, GEOSGetGeometryN_r(geos->handle, geometry, i));
+	area->rings = 0;
+	area->sizes = palloc((rings + 1) * sizeof(size_t));
+	area->points = MemoryContextAllocHuge(CurrentMemoryContext, ((size_t) points + 1) * 2 * sizeof(double));
+	for (int i = 0; i < parts; i++)
+	{
+		const GEOSGeometry *part = GEOSGetGeometryN_r(geos->handle, geometry, i);
+		int			holes = GEOSGetNumInteriorRings_r(geos->handle, part);
+
+		if (GEOSisEmpty_r(geos->handle, part) == 1)
+			continue;
+		add_ring(geos, GEOSGetExteriorRing_r(geos->handle, part), area, &at);
+		for (int k = 0; k < holes; k++)
+			add_ring(geos, GEOSGetInteriorRingN_r(geos->handle, part, k), area, &at);
+	}
+}
+
+/* The geometry of a text for which area_text_is() holds; an error if it cannot be read. */
+GEOSGeometry *
+area_text_geometry(Geos *geos, const char *text)
+{
+	int32		srid;
+	GEOSGeometry *geometry;
+
+	text = behind_spaces(behind_srid(behind_spaces(text), &srid));
+	geometry = is_hexadecimal(text) ? geos_read_hex(geos, text) : geos_read_text(geos, text);
+	if (geometry == NULL)
+		refuse(geos_message(geos), "Give the name of a region, or a polygon as WKT, EWKT or hexadecimal EWKB.");
+	if (srid != 0)
+		GEOSSetSRID_r(geos->handle, geometry, srid);
+	return geometry;
+}
+
+/* A text for which area_text_is() holds; an error unless it is a valid polygon. */
+AreaText
+area_text_read(const char *text)
+{
+	AreaText	area = {0};
+	Geos		geos;
+
+	geos_begin(&geos);
+	PG_TRY();
+	{
+		GEOSGeometry *geometry = area_text_geometry(&geos, text);
+
+		area.srid = GEOSGetSRID_r(geos.handle, geometry);
+		require_polygon(&geos, geometry);
+		take_rings(&geos, geometry, &area);
+	}
+	PG_FINALLY();
+	{
+		geos_end(&geos);
+	}
+	PG_END_TRY();
+	return area;
+}
