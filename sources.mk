@@ -187,6 +187,7 @@ CORE.tiles += src/tiles/vector_tile.cpp
 
 CORE.load += src/load/load_boundary.cpp
 CORE.load += src/load/load_labels.cpp
+CORE.load += src/load/load_lines.cpp
 CORE.load += src/load/load_markers.cpp
 CORE.load += src/load/load_simplices.cpp
 CORE.load += src/load/load_split.cpp
@@ -295,6 +296,7 @@ PG_SOURCES += src/pg/lines/line_geometries.c
 PG_SOURCES += src/pg/lines/line_points.c
 PG_SOURCES += src/pg/lines/line_rows.c
 PG_SOURCES += src/pg/lines/line_values.c
+PG_SOURCES += src/pg/lines/loaded_lines.c
 PG_SOURCES += src/pg/lines/named_rows.c
 PG_SOURCES += src/pg/lines/new_lines.c
 PG_SOURCES += src/pg/lines/new_regions.c

@@ -178,6 +178,26 @@ SELECT abacus_load('bad', NULL, 'TABLE triangle');
 SELECT abacus_load('square', 'TABLE corner', 'TABLE triangle');
 SELECT to_regclass('bad') IS NULL AS nothing_left, to_regclass('bad_vertices') IS NULL AS here_neither;
 
+-- With lines: edges that are fixed. Ties that the perturbation decides otherwise are flipped.
+SELECT abacus_load('lined', 'TABLE corner', 'VALUES (1, 2, 3), (1, 3, 4)', lines => 'VALUES (9, 3, 1)');
+SELECT v0, v1, lines FROM abacus_edges('lined', fixed => true);
+SELECT abacus_insert('lined', 'SELECT 5, 3, 1, 1');
+SELECT * FROM abacus_check('lined');
+SELECT abacus_load('flipped', 'TABLE corner', 'VALUES (1, 2, 3, 7), (1, 3, 4, 7)', labels => '{part}', facets => 'VALUES (1, 3, 1), (1, 2, 2)', lines => 'VALUES (9, 1, 2)');
+SELECT v0, v1, v2, labels FROM abacus_cells('flipped') ORDER BY 1, 2, 3;
+SELECT marker, v0, v1 FROM abacus_facets('flipped');
+-- what cannot be changed has no lines; triangulated anew it has
+SELECT abacus_load('kite', 'VALUES (1, 0, 0), (2, 9, 1), (3, 1, 2), (4, -9, 1)', 'VALUES (1, 2, 4), (2, 3, 4)', lines => 'VALUES (9, 1, 2)');
+SELECT * FROM abacus_lines('kite');
+SELECT abacus_insert('kite', 'SELECT 5, 3, 1');
+SELECT abacus_load('rebuilt', 'VALUES (1, 0, 0), (2, 9, 1), (3, 1, 2), (4, -9, 1)', 'VALUES (1, 2, 4), (2, 3, 4)', lines => 'VALUES (9, 4, 2)', retriangulate => true);
+SELECT abacus_load('rejoined', 'VALUES (1, 0, 0), (2, 9, 1), (3, 1, 2), (4, -9, 1)', 'VALUES (1, 2, 4), (2, 3, 4)', lines => 'VALUES (9, 1, 2)', retriangulate => true);
+SELECT line, position, point FROM abacus_lines('rejoined');
+SELECT abacus_load('bad', 'TABLE corner', 'VALUES (1, 2, 3), (1, 3, 4)', lines => 'VALUES (9, 2, 4), (8, 1, 7), (7, 1, 1)');
+SELECT abacus_load('bad', 'TABLE corner', 'VALUES (1, 2, 3), (1, 3, 4)', lines => 'VALUES (9, 2, 4), (8, 1, 7)');
+SELECT abacus_load('bad', 'TABLE corner', 'VALUES (1, 2, 3), (1, 3, 4)', lines => 'VALUES (9, 2.0, 4)');
+SELECT abacus_load('bad', 'VALUES (1, 0, 0, 0), (2, 1, 0, 0), (3, 0, 1, 0), (4, 0, 0, 1)', 'VALUES (1, 2, 3, 4)', lines => 'VALUES (1, 1, 2)');
+
 -- Little memory; the list of the vertices of a mesh that is not Delaunay is verified.
 SET maintenance_work_mem = '1MB';
 SELECT abacus_load('small', 'SELECT id, x, y FROM abacus_vertices(''grid'')',
@@ -187,5 +207,5 @@ SELECT count(*), count(DISTINCT id), bool_and(id = vertex AND sequence IS NULL) 
 RESET maintenance_work_mem;
 
 DROP TABLE cube, five, weak, inside, notch, weak_anew, inside_anew, notch_anew, own_anew, straight, lone_anew;
-DROP TABLE square, anew, other, ring, solid, grid, copy, nothing, lone, small, corner, triangle, ring_triangle, ring_vertex;
+DROP TABLE square, anew, other, ring, solid, grid, copy, nothing, lone, small, lined, flipped, kite, rebuilt, rejoined, corner, triangle, ring_triangle, ring_vertex;
 DROP FUNCTION try_load;

@@ -81,6 +81,13 @@ ABACUS_API abacus_status abacus_build_fix(abacus_build *build, abacus_segments *
  */
 ABACUS_API abacus_status abacus_build_unfix(abacus_build *build, abacus_segments *segments,
 											abacus_header *header, abacus_error *error);
+/*
+ * restore: flips edges that fail the in-circle test under the symbolic perturbation, and those beside
+ * them, until only fixed edges fail it. `edges` are those that may fail; if the mesh lacks one, it is
+ * ignored. Both ends must be vertices.
+ */
+ABACUS_API abacus_status abacus_build_restore(abacus_build *build, abacus_segments *edges,
+											  abacus_header *header, abacus_error *error);
 
 /*
  * vertex_at: whether the mesh as it is being changed has a vertex at a place; ABACUS_END if not. If

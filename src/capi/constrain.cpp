@@ -60,6 +60,13 @@ abacus_status abacus_build_unfix(abacus_build *build, abacus_segments *segments,
     });
 }
 
+abacus_status abacus_build_restore(abacus_build *build, abacus_segments *edges,
+                                   abacus_header *header, abacus_error *error) {
+    return abacus::run_change(build, header, error, [&](auto &opened, abacus_header &changed) {
+        opened.restore(edges->segments, changed);
+    });
+}
+
 abacus_status abacus_build_vertex_at(abacus_build *build, const double place[2], uint64_t *record,
                                      abacus_error *error) {
     return abacus::in_plane(build->build, "lines", error, [&](abacus::Build<2> &opened) {

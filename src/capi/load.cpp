@@ -3,10 +3,15 @@
 
 #include "capi/dispatch.hpp"
 #include "capi/handle.hpp"
+#include "capi/in_plane.hpp"
+#include "capi/segments.hpp"
 #include "capi/stage.hpp"
 
 #include <abacus/build.h>
 #include <abacus/load.h>
+
+#include <array>
+#include <cstring>
 
 struct abacus_load {
     abacus_load(const abacus_host *table, const abacus_facts &facts, std::size_t memory,
@@ -44,6 +49,37 @@ abacus_status abacus_load_facets(abacus_load *load, const uint64_t *facets, size
                                  abacus_error *error) {
     return abacus::dispatch(load->load, error,
                             [&](auto &loading) { loading.add_facets(facets, count); });
+}
+
+abacus_status abacus_load_lines(abacus_load *load, const uint64_t *edges, size_t count,
+                                abacus_error *error) {
+    return abacus::in_plane(load->load, "lines", error, [&](abacus::Load<2> &loading) {
+        loading.add_lines(edges, count);
+        return ABACUS_OK;
+    });
+}
+
+abacus_status abacus_load_edges(abacus_load *load, abacus_loaded_edge *edges, size_t room,
+                                size_t *count, abacus_error *error) {
+    return abacus::in_plane(load->load, "lines", error, [&](abacus::Load<2> &loading) {
+        *count = 0;
+        loading.next_edges(room, [&](const std::uint64_t *edge) {
+            std::memcpy(&edges[(*count)++], edge, sizeof *edges);
+        });
+        return ABACUS_OK;
+    });
+}
+
+abacus_status abacus_load_ties(abacus_load *load, abacus_segments *segments, uint64_t *count,
+                               abacus_error *error) {
+    return abacus::in_plane(load->load, "lines", error, [&](abacus::Load<2> &loading) {
+        *count = loading.take_ties([&](const std::uint64_t *tie) {
+            std::array<double, 4> ends;
+            std::memcpy(ends.data(), tie, sizeof ends);
+            segments->segments.add(ends.data(), abacus::Fixed::no);
+        });
+        return ABACUS_OK;
+    });
 }
 
 abacus_status abacus_load_check(abacus_load *load, abacus_delaunay *outcome, abacus_error *error) {

@@ -167,6 +167,10 @@ template <int D> void Build<D>::unfix(Segments &segments, abacus_header &header)
     });
 }
 
+template <int D> void Build<D>::restore(Segments &edges, abacus_header &header) {
+    change(header, [&] { return constraining_.restore(edges); });
+}
+
 template <int D>
 bool Build<D>::fill_regions(RegionParts &parts, abacus_region_fault &fault, abacus_header &header) {
     bool is_sound = true;

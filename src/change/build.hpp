@@ -70,6 +70,8 @@ public:
     void fix(Segments &segments, abacus_header &header);
     /// Inserts what waits, then frees the edges of segments over which the host has no line.
     void unfix(Segments &segments, abacus_header &header);
+    /// Makes a mesh Delaunay, but for its fixed edges, of which only these edges may fail the test.
+    void restore(Segments &edges, abacus_header &header);
     /// Puts triangles into the regions that have these parts, or says why that is impossible.
     bool fill_regions(RegionParts &parts, abacus_region_fault &fault, abacus_header &header);
     /// Takes all triangles out of these regions.

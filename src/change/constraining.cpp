@@ -3,6 +3,7 @@
 #include "constrain/fixing.hpp"
 #include "constrain/freeing.hpp"
 #include "constrain/regions.hpp"
+#include "constrain/restoring.hpp"
 
 namespace abacus {
 
@@ -65,6 +66,15 @@ template <int D> std::uint64_t Constraining<D>::unfix(Segments &segments) {
         work_.core->mesh.is_constrained = true;
         Freeing freeing(work_.core->mesh, *work_.lines);
         return each(segments, [&](const Segment &s) { freeing.free(s.a, s.b); });
+    } else {
+        throw Error(ABACUS_ERROR_ARGUMENT, "lines need a mesh of dimension 2");
+    }
+}
+
+template <int D> std::uint64_t Constraining<D>::restore(Segments &edges) {
+    if constexpr (D == 2) {
+        Restoring restoring(work_.core->mesh);
+        return each(edges, [&](const Segment &s) { restoring.restore(s.a, s.b); });
     } else {
         throw Error(ABACUS_ERROR_ARGUMENT, "lines need a mesh of dimension 2");
     }

@@ -26,6 +26,8 @@ public:
     std::uint64_t fix(Segments &segments);
     /// Frees the edges of all segments over which the host has no line.
     std::uint64_t unfix(Segments &segments);
+    /// Makes the mesh Delaunay again, but for its fixed edges, from edges that may fail the test.
+    std::uint64_t restore(Segments &edges);
     /// Puts triangles into the regions that have these parts; false, and `fault` says why, if that
     /// is impossible.
     bool fill_regions(RegionParts &parts, abacus_region_fault &fault);

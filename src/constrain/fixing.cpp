@@ -209,13 +209,7 @@ void Fixing::restore() {
         Point<2> a, b;
         std::memcpy(a.data(), record, sizeof a);
         std::memcpy(b.data(), record + 2, sizeof b);
-        const Way way = straight_on(cache_, vertex_at(mesh_, a), b);
-        if (way.is_edge &&
-            cache_.point(cache_.simplex(way.triangle).vertex[(way.corner + 1) % 3]) == b) {
-            restoring.add(make_link(way.triangle, (way.corner + 2) % 3));
-            restoring.run();
-        }
-        mesh_.finish(mesh_.anywhere);
+        restoring.restore(a, b);
     }
     beside_->close();
     beside_.reset();

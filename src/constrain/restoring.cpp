@@ -69,4 +69,14 @@ void Restoring::run() {
     }
 }
 
+void Restoring::restore(const Point<2> &a, const Point<2> &b) {
+    const Way way = straight_on(cache_, vertex_at(mesh_, a), b);
+    if (way.is_edge &&
+        cache_.point(cache_.simplex(way.triangle).vertex[(way.corner + 1) % 3]) == b) {
+        add(make_link(way.triangle, (way.corner + 2) % 3));
+        run();
+    }
+    mesh_.finish(mesh_.anywhere);
+}
+
 } // namespace abacus

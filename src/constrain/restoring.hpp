@@ -5,6 +5,7 @@
 #pragma once
 
 #include "delaunay/delaunay.hpp"
+#include "traverse/straight.hpp"
 
 namespace abacus {
 
@@ -17,6 +18,8 @@ public:
     void add(Link side);
     /// Tests these edges, and those that come of it.
     void run();
+    /// Tests the edge between two vertices, if the mesh still has it, and those that come of it.
+    void restore(const Point<2> &a, const Point<2> &b);
 
 private:
     /// Its simplex may have gone since, and its slot may be used again.

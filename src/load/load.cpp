@@ -16,6 +16,8 @@ namespace abacus {
 namespace {
 constexpr std::size_t sorts_at_once = 4;
 constexpr std::size_t sorts_with_labels = sorts_at_once + 1;
+constexpr std::size_t small_part = 4; // of the share of a large sort
+constexpr std::size_t edge_words = 8, tie_words = 4;
 } // namespace
 
 template <int D>
@@ -25,8 +27,10 @@ Load<D>::Load(const Host &host, const abacus_facts &facts, std::size_t memory, b
       layout_(static_cast<unsigned>(in_pages_)), labels_(facts.columns.labels),
       vertex_words_(record_words(D, attributes_)), reorient_(reorient), split_nodes_(split_nodes),
       unknown_(host), share_(memory / (labels_ > 0 ? sorts_with_labels : sorts_at_once)),
-      pacer_(host), spread_(host), used_(host, vertex_words_), ordered_(host, vertex_words_),
-      simplices_(host, layout_.simplex), label_rows_(host, std::max(1u, labels_)) {
+      small_share_(share_ / small_part), pacer_(host), spread_(host), missed_(host),
+      fixed_edges_(host, edge_words), ties_(host, tie_words), used_(host, vertex_words_),
+      ordered_(host, vertex_words_), simplices_(host, layout_.simplex),
+      label_rows_(host, std::max(1u, labels_)) {
     if (facts.census.staged > 0 || facts.census.vertices > 0)
         throw Error(ABACUS_ERROR_STATE, "the mesh already has points", {},
                     "Load into an empty mesh.");
@@ -88,12 +92,26 @@ template <int D> abacus_delaunay Load<D>::outcome() const {
     return is_own_ ? ABACUS_DELAUNAY : ABACUS_WEAKLY_DELAUNAY;
 }
 
+/// The same if edges on lines are like others, as in a mesh that cannot be changed.
+template <int D> abacus_delaunay Load<D>::outcome_without_lines() const {
+    return lines_are_empty_ ? outcome() : ABACUS_NOT_DELAUNAY;
+}
+
+/// Whether the mesh is Abacus' own, or will be when edges on lines are fixed and ties flipped.
+template <int D> bool Load<D>::can_be_changed() const {
+    const abacus_delaunay delaunay = outcome();
+    return delaunay == ABACUS_DELAUNAY || (has_lines_ && delaunay == ABACUS_WEAKLY_DELAUNAY);
+}
+
 template <int D> abacus_delaunay Load<D>::check() {
     pacer_.begin(ABACUS_PHASE_SORTING, 0);
     vertices_->finish();
     corners_->finish();
     find_corners();
-    if (simplex_count_ == 0) return ABACUS_DELAUNAY;
+    if (simplex_count_ == 0) {
+        refuse_lines();
+        return ABACUS_DELAUNAY;
+    }
     choose_domain();
     order_vertices();
     assemble();
@@ -114,7 +132,7 @@ template <int D> abacus_delaunay Load<D>::check() {
 
 template <int D> void Load<D>::write(abacus_header &header) {
     if (simplex_count_ == 0) return;
-    const bool is_delaunay = outcome() == ABACUS_DELAUNAY;
+    const bool is_own = can_be_changed();
     add_ghosts();
     if (links_) end(links_);
     header.facts.census.ghosts = boundary_->size();
@@ -122,11 +140,11 @@ template <int D> void Load<D>::write(abacus_header &header) {
     elements_->finish();
 
     pacer_.begin(ABACUS_PHASE_FLUSHING, elements_->size());
-    ElementWriter<D> pages(host_, layout_, *domain_, in_pages_, is_delaunay, split_count_ > 0);
+    ElementWriter<D> pages(host_, layout_, *domain_, in_pages_, is_own, split_count_ > 0);
     pages.write(*elements_, pacer_);
     end(elements_);
     header.counters = pages.counters(); // nothing was done with it before
-    header.counters += write_vertices(!is_delaunay);
+    header.counters += write_vertices(!is_own);
     if (labelled_) write_labels(header);
     if (marker_rows_) write_markers(header);
 
@@ -136,9 +154,11 @@ template <int D> void Load<D>::write(abacus_header &header) {
         set_domain(header.facts, box_);
     header.facts.census.vertices = vertex_count_;
     header.facts.census.simplices = simplex_count_;
-    header.facts.standing = outcome();
+    header.facts.standing = is_own ? ABACUS_DELAUNAY : outcome_without_lines();
     header.facts.census.split = split_count_;
-    if (!is_delaunay) header.facts.census.staged = header.facts.census.inserted = vertex_count_;
+    if (is_own) return;
+    ties_.close();
+    header.facts.census.staged = header.facts.census.inserted = vertex_count_;
 }
 
 template class Load<2>;

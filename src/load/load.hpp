@@ -16,16 +16,17 @@
 //   elements by key      pages (element_writer.hpp)
 //   labelled by key      pages of the labels of simplices
 //   markers by facet     with its flanks; then by simplex and by key: pages of the markers
+//   lines by facet       with its flanks; then by simplex: edges that are fixed
 //
 // The mesh is the Delaunay triangulation of its vertices if and only if across every facet
 // the empty-sphere criterion holds under the perturbation, each ridge of the boundary joins
 // two facets and is convex, and it is in one piece (Delaunay 1934). If the criterion holds
 // without the perturbation alone it is weakly Delaunay: all spheres are empty, but of vertices
-// on one sphere others are joined. What is convex at all
-// ridges of a connected boundary is convex (Tietze, Nakajima). Of two convex pieces, one
-// would have the least or the greatest vertex of all beyond one of its facets: if both were
-// in both pieces, so would be all that lies between them, which overlap.hpp excludes but for
-// an edge, and at such an edge four facets meet.
+// on one sphere others are joined. Facets on lines are not tested (Lee and Lin 1986). What is
+// convex at all ridges of a connected boundary is convex (Tietze, Nakajima). Of two convex pieces,
+// one would have the least or the greatest vertex of all beyond one of its facets: if both were in
+// both pieces, so would be all that lies between them, which overlap.hpp excludes but for an edge,
+// and at such an edge four facets meet.
 //
 // Split nodes. Vertices may share their places, told apart by their ids: so the two sides of a
 // fault are kept apart. Their facets are matched by ids, so both sides are of the boundary, and
@@ -69,14 +70,35 @@ public:
     void add_simplices(const std::uint64_t *simplices, std::size_t count);
     /// Then markers of facets: D vertex ids each, and the marker.
     void add_facets(const std::uint64_t *facets, std::size_t count);
+    /// Then lines of a mesh in the plane: each edge as the line and two vertex ids. If this is
+    /// called at all, a mesh whose other edges are weakly Delaunay is written like one that can be
+    /// changed: the caller must then fix the edges on lines, and flip the ties.
+    void add_lines(const std::uint64_t *rows, std::size_t count);
     /// No more come: checks.
     abacus_delaunay check();
+    /// Calls visit(edge) with the next edge on a line, at most `most` times: the line, the number
+    /// of its row, two ids and two points.
+    template <class Visit> void next_edges(std::size_t most, Visit visit) {
+        for (; most > 0; --most) {
+            const Word *edge = fixed_edges_.next();
+            if (edge == nullptr) return fixed_edges_.close();
+            visit(edge);
+        }
+    }
+    /// Calls visit(tie) with the ends of each edge that the perturbation alone decides against, and
+    /// is on no line; returns how many there were.
+    template <class Visit> std::uint64_t take_ties(Visit visit) {
+        while (const Word *tie = ties_.next()) visit(tie);
+        ties_.close();
+        return tie_count_;
+    }
     /// Writes the pages and brings the header of the empty mesh up to date.
     void write(abacus_header &header);
     /// Or instead: calls add(vertex) with the record of each vertex of a simplex.
     template <class Add> void give_vertices(Add add) {
         for (auto *sort : {&links_, &boundary_, &elements_, &labelled_, &marker_rows_})
             if (*sort) end(*sort); // taking the vertices needs memory
+        ties_.close();
         while (const Word *vertex = ordered_.next()) add(vertex);
         ordered_.close();
     }
@@ -118,6 +140,22 @@ private:
     void place_markers(Word simplex, const Word *record);
     void write_markers(abacus_header &header);
 
+    // load_lines.cpp
+    /// A line with an edge that is none.
+    struct Missed {
+        Word line;
+        std::array<Word, D> ids;
+    };
+    void begin_lines();
+    void miss_lines_before(const std::array<Word, D> *ids);
+    void fix_sides(const std::array<Word, D> &ids, std::span<const Word> sides);
+    void end_lines();
+    void refuse_lines();
+    void name_missed();
+    bool take_lines(Word simplex, int facet, const Word *record);
+    void keep_edge(const Word *record, int facet);
+    void keep_tie(const Word *record, int facet);
+
     // load_boundary.cpp
     void link_ghosts();
     void check_hull();
@@ -125,6 +163,8 @@ private:
 
     // load.cpp
     abacus_delaunay outcome() const;
+    abacus_delaunay outcome_without_lines() const;
+    bool can_be_changed() const;
     abacus_counters write_vertices(bool is_listed);
     void begin(std::optional<RecordSort> &sort, std::size_t stride, std::size_t key) {
         sort.emplace(host_, stride, key, share_);
@@ -143,7 +183,8 @@ private:
     const bool reorient_, split_nodes_;
     Faults faults_; // of one step: there is no next one if it has some
     Arena<Unknown> unknown_;
-    const std::size_t share_; // of memory, for one of the sorts that are open at once
+    const std::size_t share_;       // of memory, for one of the sorts that are open at once
+    const std::size_t small_share_; // for those of markers and lines
     Pacer pacer_;
     std::optional<Domain<D>> domain_;
     Spread<D> spread_; // of the vertices
@@ -163,10 +204,18 @@ private:
     // Markers by the ids of the facet; by sides of simplices; and by the keys of these.
     std::optional<RecordSort> marks_, marked_, marker_rows_;
     const Word *mark_ = nullptr; // the next one to be read
-    RecordSpool used_;           // vertices of simplices
-    RecordSpool ordered_;        // the same along the curve
-    RecordSpool simplices_;      // in the order of the query
-    RecordSpool label_rows_;     // as well
+    // Lines by the ids of the facet; by sides of simplices.
+    std::optional<RecordSort> lines_, fixed_;
+    const Word *line_ = nullptr, *fixed_row_ = nullptr; // the next ones to be read
+    bool has_lines_ = false, lines_are_empty_ = true;   // and the circumspheres beside them are
+    Arena<Missed> missed_;
+    RecordSpool fixed_edges_; // as next_edges() returns them
+    RecordSpool ties_;        // ends
+    Word tie_count_ = 0;
+    RecordSpool used_;       // vertices of simplices
+    RecordSpool ordered_;    // the same along the curve
+    RecordSpool simplices_;  // in the order of the query
+    RecordSpool label_rows_; // as well
 };
 
 extern template class Load<2>;

@@ -51,7 +51,7 @@ template <int D> void Load<D>::check_hull() {
 
 template <int D> void Load<D>::add_ghosts() {
     boundary_->rewind();
-    const bool is_linked = outcome() == ABACUS_DELAUNAY;
+    const bool is_linked = can_be_changed();
     std::optional<LinkReader<D>> links;
     if (is_linked) {
         links_->rewind();

@@ -9,12 +9,8 @@
 
 namespace abacus {
 
-namespace {
-constexpr std::size_t pieces = 4; // of the share of one of the large sorts
-} // namespace
-
 template <int D> void Load<D>::add_facets(const Word *facets, std::size_t count) {
-    if (!marks_) marks_.emplace(host_, D + 1, D, share_ / pieces);
+    if (!marks_) marks_.emplace(host_, D + 1, D, small_share_);
     for (std::size_t i = 0; i < count; ++i, facets += D + 1) {
         const auto marker = std::bit_cast<double>(facets[D]);
         std::array<Word, D> ids;
@@ -35,7 +31,7 @@ template <int D> void Load<D>::add_facets(const Word *facets, std::size_t count)
 template <int D> void Load<D>::begin_markers() {
     if (!marks_) return;
     marks_->finish();
-    marked_.emplace(host_, 2, 1, share_ / pieces);
+    marked_.emplace(host_, 2, 1, small_share_);
     mark_ = marks_->next();
 }
 
@@ -75,7 +71,7 @@ template <int D> void Load<D>::end_marks() {
     end(marks_);
     marked_->finish();
     mark_ = marked_->next();
-    marker_rows_.emplace(host_, key_words + D * (D + 1) + D + 1, key_words, share_ / pieces);
+    marker_rows_.emplace(host_, key_words + D * (D + 1) + D + 1, key_words, small_share_);
 }
 
 /// Places the markers of the next simplex.

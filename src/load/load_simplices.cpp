@@ -67,9 +67,12 @@ template <int D> void Load<D>::assemble() {
 template <int D> void Load<D>::link() {
     begin(links_, LoadLayout<D>::link, 1);
     begin_markers();
+    begin_lines();
     each_facet<D, D>(*flanks_, [&](const auto &flanks, std::uint64_t n) {
         const std::array<Word, 2> sides{flanks[0].place >> 1, flanks[1].place >> 1};
-        if (marks_) mark_sides(flanks[0].ids, std::span(sides).first(n < 2 ? 1 : 2));
+        const std::span<const Word> of_facet = std::span(sides).first(n < 2 ? 1 : 2);
+        if (marks_) mark_sides(flanks[0].ids, of_facet);
+        if (lines_) fix_sides(flanks[0].ids, of_facet);
         const auto name = [&](int i) { return sorted_name(flanks[i].ids, flanks[i].opposite); };
         const auto facet = [&] { return sorted_name(flanks[0].ids); };
         if (n < 2) return;
@@ -94,6 +97,7 @@ template <int D> void Load<D>::link() {
         add_link(*links_, flanks[1], flanks[0]);
     });
     if (marks_) end_marks();
+    if (lines_) end_lines();
     faults_.raise();
     end(flanks_);
     links_->finish();
@@ -113,13 +117,16 @@ template <int D> void Load<D>::find_boundary() {
         for (int i = 0; i <= D; ++i) corners[i] = &point_in<D>(layout_.simplex_vertex(record, i));
         for (int i = 0; i <= D; ++i) {
             Key beyond;
+            const bool is_fixed = take_lines(simplex, i, record);
             if (const auto *link = links.of(simplex, i)) {
                 beyond = link->key;
                 // Test each facet from one of its sides only.
-                if (is_empty_ && layout_.simplex_vertex(record, i)[0] < link->opposite &&
+                bool &is_empty = is_fixed ? lines_are_empty_ : is_empty_;
+                if (is_empty && layout_.simplex_vertex(record, i)[0] < link->opposite &&
                     in_sphere(corners, link->point) > 0) {
-                    is_own_ = false;
-                    is_empty_ = exact::unperturbed_in_sphere<D>(corners, link->point) <= 0;
+                    is_empty = exact::unperturbed_in_sphere<D>(corners, link->point) <= 0;
+                    if (!is_fixed) is_own_ = false;
+                    if (!is_fixed && is_empty && has_lines_) keep_tie(record, i);
                 }
             } else {
                 add_ghost(record, i, beyond);
@@ -134,6 +141,9 @@ template <int D> void Load<D>::find_boundary() {
     }
     end(links_);
     if (marked_) end(marked_);
+    if (fixed_) end(fixed_);
+    fixed_edges_.rewind();
+    ties_.rewind();
     boundary_->finish();
 }
 

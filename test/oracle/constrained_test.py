@@ -1,5 +1,6 @@
 #!/usr/bin/python3
 """Lines of a mesh against CGAL's constrained Delaunay triangulation: triangles and fixed edges, whatever the order, threads and cache.
+CGAL's triangulation is also loaded, with its constrained edges as lines, as it is and with other edges among points on one circle.
 
 ABACUS_LARGE=1 takes more points and all settings for each input."""
 import math
@@ -7,6 +8,7 @@ import os
 import pathlib
 import subprocess
 import unittest
+from fractions import Fraction
 
 import numpy
 from scipy.spatial import Delaunay
@@ -48,6 +50,36 @@ def ours(mesh):
 
 def unique(points):
     return numpy.unique(points + 0.0, axis=0)
+
+
+def on_one_circle(places):
+    """Whether four places are, exactly."""
+    rows = [[x - places[3][0], y - places[3][1]] for x, y in places[:3]]
+    (a, b), (c, d), (e, f) = rows
+    return (a * a + b * b) * (c * f - d * e) - (c * c + d * d) * (a * f - b * e) + (e * e + f * f) * (a * d - b * c) == 0
+
+
+def otherwise(points, triangles, fixed, random):
+    """The triangles with some of the free edges among four points on one circle exchanged for the other diagonal; and how many."""
+    beyond, changed, used = {}, triangles.copy(), set()
+    fixed = {tuple(sorted(edge)) for edge in fixed.tolist()}
+    for t, corners in enumerate(triangles.tolist()):
+        for i in range(3):
+            a, b, c = corners[i], corners[(i + 1) % 3], corners[(i + 2) % 3]
+            if (b, a) not in beyond:
+                beyond[a, b] = t, c
+                continue
+            u, d = beyond[b, a]
+            if {t, u} & used or (min(a, b), max(a, b)) in fixed or random.random() < 0.3:
+                continue
+            near = points[[a, b, c]] - points[d]  # as doubles first, which rule most of them out
+            square = (near ** 2).sum(axis=1)
+            if abs(numpy.linalg.det(numpy.column_stack([near, square]))) > 1e-6 * numpy.abs(near).max() ** 2 * square.max():
+                continue
+            if on_one_circle([tuple(map(Fraction, points[k].tolist())) for k in (a, b, c, d)]):
+                changed[t], changed[u] = (a, d, c), (d, b, c)
+                used |= {t, u}
+    return changed, len(used) // 2
 
 
 def chains(segments, random, most=5):
@@ -99,7 +131,30 @@ class Constrained(unittest.TestCase):
                 numpy.testing.assert_array_equal(fixed, edges)
                 numpy.testing.assert_array_equal(found, triangles)
                 self.check_lines(points, lines, fixed, of)
+        self.load(name, points, triangles, edges, *chosen[-1], random)
         return len(edges)
+
+    def load(self, name, points, triangles, edges, threads, tiny, cache, random):
+        """CGAL's triangles, loaded with its constrained edges as lines, are the mesh; and without the lines they are that without lines."""
+        given, exchanged = otherwise(points, triangles, edges, random)
+        rows = numpy.column_stack([random.integers(0, 1 + len(edges) // 5, len(edges)), edges + 1])
+        turned = random.random(len(rows)) < 0.5
+        rows[turned] = rows[turned][:, [0, 2, 1]]
+        for table, columns, values in (("given_triangles", "v0, v1, v2", given + 1), ("given_lines", "line, v0, v1", rows)):
+            abacus.psql(f"DROP TABLE IF EXISTS {table}; CREATE TABLE {table} ({columns.replace(',', ' bigint,')} bigint)")
+            abacus.psql(f"COPY {table} FROM STDIN (FORMAT csv)", "".join(",".join(map(str, row)) + "\n" for row in random.permutation(values).tolist()))
+        with self.subTest(f"{name}, loaded with {exchanged} edges exchanged", threads=threads, tiny=tiny, cache=cache):
+            abacus.psql(f"""DROP TABLE IF EXISTS lined, lined_vertices, lined_lines CASCADE;
+                SET abacus.threads = {threads}; SET abacus.cache_size = '{cache}MB'; SET abacus.tiny_intervals = {tiny};
+                SELECT abacus_load('lined', 'SELECT id, x, y FROM lined_points', 'TABLE given_triangles', lines => 'TABLE given_lines')""")
+            self.assertEqual(abacus.rows("SELECT * FROM abacus_check('lined')"), [])
+            found, fixed, of = ours("lined")
+            numpy.testing.assert_array_equal(fixed, edges)
+            numpy.testing.assert_array_equal(found, triangles)
+            line = {(min(a, b) - 1, max(a, b) - 1): n for n, a, b in rows.tolist()}
+            self.assertEqual(of, [{line[edge]} for edge in map(tuple, edges.tolist())])
+            abacus.psql("SELECT abacus_unconstrain('lined', 'SELECT DISTINCT line FROM given_lines')")
+            numpy.testing.assert_array_equal(ours("lined")[0], theirs(points, numpy.empty((0, 2), dtype=int))[0])
 
     def check_lines(self, points, lines, edges, of):
         """Each edge names the lines that have it: the chains between the corners of a line, followed edge by edge."""

@@ -190,7 +190,9 @@ SET LOCAL maintenance_work_mem = '1MB';
 SELECT pg_temp.inject('load with holes', $$ SELECT abacus_load('holes', 'SELECT id, x, y FROM abacus_vertices(''made'')', 'SELECT * FROM triangles WHERE v0 % 5 > 0') $$,
     $$ SELECT to_regclass('holes') IS NULL AND to_regclass('holes_vertices') IS NULL $$);
 RESET maintenance_work_mem;
-SELECT is_empty($$ SELECT * FROM abacus_check('loaded') UNION ALL SELECT * FROM abacus_check('holes') $$, 'the loaded meshes are sound');
+SELECT pg_temp.inject('load with lines', $$ SELECT abacus_load('fixed', 'SELECT id, x, y FROM abacus_vertices(''made'')', 'TABLE triangles', lines => 'SELECT 1, v0, v1 FROM triangles WHERE v0 % 5 > 0') $$,
+    $$ SELECT to_regclass('fixed') IS NULL AND to_regclass('fixed_vertices') IS NULL AND to_regclass('fixed_lines') IS NULL $$);
+SELECT is_empty($$ SELECT * FROM abacus_check('loaded') UNION ALL SELECT * FROM abacus_check('holes') UNION ALL SELECT * FROM abacus_check('fixed') $$, 'the loaded meshes are sound');
 SELECT pg_temp.inject('locate in holes', $$ DO 'BEGIN SET LOCAL abacus.cache_size = ''5MB''; PERFORM abacus_locate(''holes'', x + 0.25, y + 0.25) FROM points; END' $$, 'SELECT true');
 SELECT pg_temp.inject('check holes', $$ SELECT count(*) FROM abacus_check('holes') $$, 'SELECT true');
 

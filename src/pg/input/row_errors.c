@@ -31,14 +31,14 @@ row_word(const RowPacker *packer, int column)
 		? column + packer->columns - packer->inputs : column;
 }
 
-/* The name of a column of ids, if there are several: of a simplex, or of one with a facet. */
+/* The name of a column of ids, if there are several: of a simplex, of one with a facet, or of an edge. */
 static const char *
 simplex_column(const RowPacker *packer, int column)
 {
 	int			dimension = (int) packer->names.facts->form.dimension;
-	int			corner = packer->ids > dimension + 1 ? column - 1 : column;
+	int			corner = packer->origin->by_number ? column - 1 : column;
 
-	return corner < 0 ? "code" : corner <= dimension ? corner_names[corner] : "facet";
+	return corner < 0 ? packer->origin->id : corner <= dimension ? corner_names[corner] : "facet";
 }
 
 /* The name of a column of a row. */

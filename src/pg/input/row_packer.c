@@ -35,6 +35,11 @@ static const RowOrigin query_of_labels = {
 	NULL, "Leave such rows out with a WHERE clause.", true,
 	"mesh", "code", "A code or an id", NULL, true, false, false
 };
+static const RowOrigin query_of_lines = {
+	"the query of lines", "the query of lines", "Cast the column in the query.",
+	NULL, "Leave such rows out with a WHERE clause.", false,
+	"mesh", "line", "A line or an id", NULL, true, false, false
+};
 static const RowOrigin tracked_table = {
 	"the tracked table", "the statement", "Track other columns, generated ones for instance.",
 	"Track generated columns", "Set a coordinate to NULL in rows without a point.", false,
@@ -358,6 +363,13 @@ RowPacker *
 row_packer_create_loaded_facets(TupleDesc desc, abacus_names names, size_t batch)
 {
 	return create_marking(desc, names, &query_of_simplices, names.facts->form.dimension, batch);
+}
+
+/* The same for edges of simplices that are loaded, by a line and the ids of two vertices. */
+RowPacker *
+row_packer_create_loaded_lines(TupleDesc desc, abacus_names names, size_t batch)
+{
+	return create(desc, names, &query_of_lines, 3, 0, 0, false, false, batch);
 }
 
 /* The same for rows of a query for an octree; `takes_srid` as above. */

@@ -35,7 +35,8 @@ typedef struct RowOrigin
 	const char *id;				/* the first column */
 	const char *an_id;			/* a value of it */
 	const char *level;			/* the second column, if it is not a coordinate */
-	bool		by_number;		/* a row is identified by its number, not its id */
+	bool		by_number;		/* a row is identified by its number, not its id; of several ids,
+								 * the first is not that of a vertex */
 	bool		takes_geometry; /* a geometry may follow the first column */
 	bool		makes_id;		/* rows without an id can be given one in the query */
 	bool		takes_z;		/* the geometry again is an attribute: its z */
@@ -87,6 +88,8 @@ extern RowPacker *row_packer_create_facets(TupleDesc desc, abacus_names names,
 										   size_t batch);
 extern RowPacker *row_packer_create_loaded_facets(TupleDesc desc, abacus_names names,
 												  size_t batch);
+extern RowPacker *row_packer_create_loaded_lines(TupleDesc desc, abacus_names names,
+												 size_t batch);
 extern RowPacker *row_packer_create_octants(TupleDesc desc, abacus_names names,
 											OctantRows rows, bool takes_srid, size_t batch);
 extern void row_packer_reset(RowPacker *packer);

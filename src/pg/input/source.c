@@ -214,6 +214,14 @@ source_open_loaded_facets(Source *source, abacus_names names)
 	source->packer = row_packer_create_loaded_facets(source->portal->tupDesc, names, ROWS_A_BATCH);
 }
 
+/* Starts reading lines of a triangulation that is loaded: each edge by its line and two ids. */
+void
+source_open_loaded_lines(Source *source, abacus_names names)
+{
+	source->portal = SPI_cursor_open(NULL, source->plan, NULL, NULL, true);
+	source->packer = row_packer_create_loaded_lines(source->portal->tupDesc, names, ROWS_A_BATCH);
+}
+
 /* Starts reading rows for an octree; see row_packer_create_octants(). */
 void
 source_open_octants(Source *source, abacus_names names, OctantRows rows, bool takes_srid)

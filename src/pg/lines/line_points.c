@@ -375,6 +375,18 @@ check_lengths(const NewLines *lines)
 				 : errhint("Leave one of the two points out.")));
 }
 
+/* The points of lines, LINE_POINTS, from a query. */
+NamedRows *
+line_points_of_query(const char *query)
+{
+	static const NamedColumn columns[] = {
+		{"line", INT8OID}, {"position", INT8OID}, {"point", INT8OID}, {"x", FLOAT8OID},
+		{"y", FLOAT8OID}, {"attributes", FLOAT8ARRAYOID}, {"is_new", BOOLOID}, {"part", INT8OID}
+	};
+
+	return named_rows_of_query(LINE_POINTS, columns, lengthof(columns), query);
+}
+
 /*
  * The points of the lines, LINE_POINTS: those found in the mesh, which are registered and then freed,
  * or new ones, which get ids.
@@ -382,10 +394,6 @@ check_lengths(const NewLines *lines)
 NamedRows *
 line_points_resolve(const NewLines *lines, NamedRows *found)
 {
-	static const NamedColumn columns[] = {
-		{"line", INT8OID}, {"position", INT8OID}, {"point", INT8OID}, {"x", FLOAT8OID},
-		{"y", FLOAT8OID}, {"attributes", FLOAT8ARRAYOID}, {"is_new", BOOLOID}, {"part", INT8OID}
-	};
 	NamedRows  *points;
 
 	if (lines->shape.has_places)
@@ -400,7 +408,7 @@ line_points_resolve(const NewLines *lines, NamedRows *found)
 	}
 	if (lines->shape.has_attributes)
 		check_attributes(lines);
-	points = named_rows_of_query(LINE_POINTS, columns, lengthof(columns), points_query(lines));
+	points = line_points_of_query(points_query(lines));
 	named_rows_free(found);
 	check_lengths(lines);
 	return points;

@@ -41,6 +41,7 @@ typedef struct NewLines
 extern void line_points_check(const NewLines *lines);
 extern NamedRows *line_points_found(void);
 extern NamedRows *line_points_scan(const NewLines *lines);
+extern NamedRows *line_points_of_query(const char *query);
 extern NamedRows *line_points_resolve(const NewLines *lines, NamedRows *found);
 
 #endif

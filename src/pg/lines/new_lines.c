@@ -89,7 +89,7 @@ refuse_existing(const char *table)
 	Datum		line;
 	bool		isnull;
 
-	if (query_first(psprintf("SELECT g.line FROM (SELECT DISTINCT line FROM " LINE_ROWS ") AS g "
+	if (query_first(psprintf("SELECT g.line FROM (SELECT DISTINCT line FROM " LINE_POINTS ") AS g "
 							 "WHERE EXISTS (SELECT FROM %s AS l WHERE l.line = g.line) ORDER BY g.line LIMIT 1",
 							 table), &line, &isnull, 1))
 		ereport(ERROR,
@@ -238,9 +238,10 @@ new_lines_join(Change *change, const LineValues *values, const NewPoints *points
 	change_edges(change, values);
 }
 
-/* Adds the lines whose rows have been read; returns how many they are. */
-static uint64
-add_lines(Change *change, const NewLines *lines, const char *kind, ExistingLines existing, const NewPoints *allowed)
+/* Adds the lines whose points are known, LINE_POINTS; returns how many they are. */
+uint64
+new_lines_put(Change *change, const NamedRows *points, const char *kind, ExistingLines existing,
+			  const NewPoints *allowed)
 {
 	Datum		count;
 	bool		isnull;
@@ -248,20 +249,17 @@ add_lines(Change *change, const NewLines *lines, const char *kind, ExistingLines
 	int64		soft = 0;
 	char	   *table;
 	bool		is_new;
-	NamedRows  *points;
 	LineValues	values = {psprintf("'%s'", kind), "NULL", ""};
 	int			level = plain_names_begin(true);
 
-	line_points_check(lines);
-	points = line_points_resolve(lines, line_points_scan(lines));
-	query_first("SELECT count(*) FROM (SELECT DISTINCT line FROM " LINE_ROWS ") AS s", &count, &isnull, 1);
+	query_first("SELECT count(*) FROM (SELECT DISTINCT line FROM " LINE_POINTS ") AS s", &count, &isnull, 1);
 	plain_names_end(level);
 	table = lines_table_name(lines_table_make(mesh_of(change), &is_new));
 	level = plain_names_begin(true);
 	if (existing == EXISTING_ERROR)
 		refuse_existing(table);
 	else
-		replaced = new_lines_delete(change, table, "SELECT line FROM " LINE_ROWS, &soft);
+		replaced = new_lines_delete(change, table, "SELECT line FROM " LINE_POINTS, &soft);
 	new_lines_write(table, &values, points);
 	if (is_new)
 		lines_table_index(mesh_of(change));
@@ -269,8 +267,23 @@ add_lines(Change *change, const NewLines *lines, const char *kind, ExistingLines
 				 (strcmp(kind, "soft") == 0 ? DatumGetInt64(count) : 0) - soft);
 	new_lines_join(change, &values, allowed);
 	plain_names_end(level);
-	named_rows_free(points);
 	return (uint64) DatumGetInt64(count);
+}
+
+/* Adds the lines whose rows have been read; returns how many they are. */
+static uint64
+add_lines(Change *change, const NewLines *lines, const char *kind, ExistingLines existing, const NewPoints *allowed)
+{
+	NamedRows  *points;
+	uint64		count;
+	int			level = plain_names_begin(true);
+
+	line_points_check(lines);
+	points = line_points_resolve(lines, line_points_scan(lines));
+	plain_names_end(level);
+	count = new_lines_put(change, points, kind, existing, allowed);
+	named_rows_free(points);
+	return count;
 }
 
 /* A call of abacus_vertices() for a mesh, in SQL; `function` is one of the same extension. */

@@ -31,6 +31,8 @@ typedef struct LineValues
 
 extern void new_lines_check_mesh(const Change *change);
 extern char *new_lines_vertices(Oid function, Oid mesh);
+extern uint64 new_lines_put(Change *change, const NamedRows *points, const char *kind,
+							ExistingLines existing, const NewPoints *allowed);
 extern uint64 new_lines_add(Change *change, Source *source, const char *vertices, const char *kind,
 							ExistingLines existing, const char *z, const NewPoints *points);
 extern void new_lines_write(const char *table, const LineValues *values, const NamedRows *points);

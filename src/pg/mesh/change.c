@@ -28,6 +28,7 @@ close_handles(void *handle)
 	abacus_marking_close(change->marking);
 	abacus_segments_close(change->fixed);
 	abacus_segments_close(change->freed);
+	abacus_segments_close(change->ties);
 }
 
 /* Initializes a change whose writer has begun. */
@@ -141,11 +142,13 @@ hold(Change *change)
 		host_run(change->writer.host, abacus_build_hold, change->build);
 }
 
-static void
-settle(Change *change)
+/* Lets labels and markers follow what has changed; the end of the change does that otherwise. */
+void
+change_settle(Change *change)
 {
 	if (change->holds)
 		host_run(change->writer.host, abacus_build_settle, change->build, change->writer.header);
+	change->holds = false;
 }
 
 /*
@@ -344,6 +347,29 @@ change_unfix(Change *change)
 	mesh_lines_fix_left(&change->writer, change->build, &change->fixed);
 }
 
+/*
+ * Flips the edges of a mesh that has been loaded, and whose lines are fixed, that the perturbation decides
+ * against; returns how many there were. Closes the load.
+ */
+uint64
+change_restore_ties(Change *change)
+{
+	Host	   *host = change->writer.host;
+	uint64		count;
+
+	mesh_lines_open(&change->writer, &change->ties);
+	host_run(host, abacus_load_ties, change->load, change->ties, &count);
+	abacus_load_close(change->load);
+	change->load = NULL;
+	if (count > 0)
+	{
+		change_open_build(change);
+		host_run(host, abacus_build_restore, change->build, change->ties, change->writer.header);
+	}
+	mesh_lines_close(host, &change->ties);
+	return count;
+}
+
 /* Reports the simplices that have been created and removed, if the change returns them. */
 void
 change_report(Change *change, abacus_change_report report, void *context)
@@ -366,7 +392,7 @@ void
 change_end(Change *change)
 {
 	let_lines_wait(change);
-	settle(change);
+	change_settle(change);
 	notice_duplicates(&change->writer, change->duplicates, change->may_replace);
 	if (change->inserts)
 		notice_waiting(&change->writer);

@@ -29,6 +29,7 @@ typedef struct Change
 	abacus_marking *marking;
 	abacus_segments *fixed;		/* of lines that come */
 	abacus_segments *freed;		/* of lines that go */
+	abacus_segments *ties;		/* loaded edges that the perturbation decides against */
 } Change;
 
 extern Change *change_begin(Oid mesh, const char *command);
@@ -51,6 +52,8 @@ extern void change_stage(Change *change);
 extern void change_lines(Change *change, int64 more, int64 soft);
 extern void change_fix(Change *change);
 extern void change_unfix(Change *change);
+extern uint64 change_restore_ties(Change *change);
+extern void change_settle(Change *change);
 extern void change_report(Change *change, abacus_change_report report, void *context);
 extern void change_abandon(Change *change);
 extern void change_end(Change *change);

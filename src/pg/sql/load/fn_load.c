@@ -4,7 +4,8 @@
  * The vertices are read first, then the simplices. The core sorts and checks both within
  * maintenance_work_mem, beyond that in temporary files, and writes the pages. If the simplices are
  * not Abacus' own Delaunay triangulation, it triangulates the vertices instead if the caller
- * wishes.
+ * wishes. With lines, the triangulation may be one that is Delaunay but for their edges. Then these
+ * become fixed, and ties between cocircular vertices are flipped.
  */
 #include "postgres.h"
 
@@ -13,6 +14,8 @@
 
 #include "pg/base/settings.h"
 #include "pg/base/sql_function.h"
+#include "pg/lines/loaded_lines.h"
+#include "pg/lines/new_lines.h"
 #include "pg/mesh/change.h"
 #include "pg/mesh/new_mesh.h"
 #include "pg/mesh/shape.h"
@@ -96,59 +99,135 @@ check(Host *host, abacus_load *load)
 			 errhint("%s", host->failure.hint)));
 }
 
-/*
- * Passes the rows of two prepared queries to the core, and those of a third for facets unless it is
- * NULL. The core checks them.
- */
+/* ---- The queries ------------------------------------------------------------------------ */
+
+/* What is loaded. */
+typedef struct Loading
+{
+	Source		vertices;
+	Source		simplices;
+	Source		facets;
+	Source		lines;
+	bool		has_facets;
+	bool		has_lines;
+	int			labels;
+	bool		reorient;
+	bool		split_nodes;
+} Loading;
+
+/* Prepares an optional query; returns whether it is there. */
+static bool
+prepare_optional(Source *source, FunctionCallInfo fcinfo, int argument)
+{
+	if (PG_ARGISNULL(argument))
+		return false;
+	source_prepare(source, text_to_cstring(PG_GETARG_TEXT_PP(argument)));
+	return true;
+}
+
+static void
+prepare(Loading *loading, FunctionCallInfo fcinfo)
+{
+	if (PG_ARGISNULL(0) || PG_ARGISNULL(1) || PG_ARGISNULL(2) || PG_ARGISNULL(6) || PG_ARGISNULL(7) ||
+		PG_ARGISNULL(10))
+		ereport(ERROR,
+				(errcode(ERRCODE_NULL_VALUE_NOT_ALLOWED),
+				 errmsg("mesh, vertices, simplices, reorient, retriangulate and split_nodes must not be NULL")));
+	source_prepare(&loading->vertices, text_to_cstring(PG_GETARG_TEXT_PP(1)));
+	source_prepare(&loading->simplices, text_to_cstring(PG_GETARG_TEXT_PP(2)));
+	loading->has_facets = prepare_optional(&loading->facets, fcinfo, 9);
+	loading->has_lines = prepare_optional(&loading->lines, fcinfo, 11);
+	loading->reorient = PG_GETARG_BOOL(6);
+	loading->split_nodes = PG_GETARG_BOOL(10);
+}
+
+/* Ends the queries, the last one first. */
+static void
+finish(Loading *loading)
+{
+	if (loading->has_lines)
+		source_finish(&loading->lines);
+	if (loading->has_facets)
+		source_finish(&loading->facets);
+	source_finish(&loading->simplices);
+	source_finish(&loading->vertices);
+}
+
+/* Passes the rows of the prepared queries to the core, which checks them. */
 static abacus_delaunay
-read_triangulation(Change *change, Source *vertices, Source *simplices, Source *facets,
-				   bool reorient, bool split_nodes)
+read_triangulation(Change *change, Loading *loading)
 {
 	Host	   *host = change->writer.host;
 	abacus_header *header = change->writer.header;
 	const uint64 *records;
 	size_t		count;
 
-	host_run(host, abacus_load_open, &host->table, &header->facts, setting_sort_bytes(), reorient,
-			 split_nodes, &change->load);
-	source_open(vertices, abacus_names_of(header), true);
-	while ((count = source_fetch(vertices, &records)) > 0)
+	host_run(host, abacus_load_open, &host->table, &header->facts, setting_sort_bytes(), loading->reorient,
+			 loading->split_nodes, &change->load);
+	source_open(&loading->vertices, abacus_names_of(header), true);
+	while ((count = source_fetch(&loading->vertices, &records)) > 0)
 		host_run(host, abacus_load_vertices, change->load, records, count);
-	change_take_srid(change, vertices->packer->srid);
-	source_close(vertices);
-	source_open_simplices(simplices, abacus_names_of(header));
-	while ((count = source_fetch(simplices, &records)) > 0)
+	change_take_srid(change, loading->vertices.packer->srid);
+	source_close(&loading->vertices);
+	source_open_simplices(&loading->simplices, abacus_names_of(header));
+	while ((count = source_fetch(&loading->simplices, &records)) > 0)
 		host_run(host, abacus_load_simplices, change->load, records, count);
-	source_close(simplices);
-	if (facets != NULL)
+	source_close(&loading->simplices);
+	if (loading->has_facets)
 	{
-		source_open_loaded_facets(facets, abacus_names_of(header));
-		while ((count = source_fetch(facets, &records)) > 0)
+		source_open_loaded_facets(&loading->facets, abacus_names_of(header));
+		while ((count = source_fetch(&loading->facets, &records)) > 0)
 			host_run(host, abacus_load_facets, change->load, records, count);
-		source_close(facets);
+		source_close(&loading->facets);
 	}
+	if (loading->has_lines)
+		loaded_lines_read(change, &loading->lines);
 	return check(host, change->load);
 }
 
-/* Reports the kind of a triangulation that is not Abacus' own. */
-static void
-tell(abacus_delaunay delaunay, bool retriangulated, bool labelled, bool marked)
-{
-	const char *reason = abacus_delaunay_reason(delaunay);
+/* ---- Notices ---------------------------------------------------------------------------- */
 
-	if (retriangulated)
-		ereport(NOTICE,
-				(errmsg("the vertices have been triangulated anew"),
-				 errdetail("About the triangulation that was given: %s", reason),
-				 labelled ? errhint("The simplices are new: their labels are NULL.") :
-				 marked ? errhint("The facets are new: they have no markers.") : 0));
-	else
-		ereport(NOTICE,
-				(errmsg("%s", abacus_delaunay_clause(delaunay)),
-				 errdetail("%s The mesh can be read, and have other attributes, but not other points.", reason),
-				 errhint("Use retriangulate => true for Abacus' own triangulation of the vertices, "
-						 "which can be changed.")));
+/* A mesh that is as it was given, and cannot be changed. */
+static void
+tell_unchangeable(abacus_delaunay delaunay, const Loading *loading)
+{
+	ereport(NOTICE,
+			(errmsg("%s", abacus_delaunay_clause(delaunay)),
+			 errdetail("%s %sThe mesh can be read, and have other attributes, but not other points.%s",
+					   abacus_delaunay_reason(delaunay),
+					   loading->has_lines && delaunay == ABACUS_NOT_DELAUNAY ? "Edges on lines do not count. " : "",
+					   loading->has_lines ? " It has no lines." : ""),
+			 errhint("Use retriangulate => true for Abacus' own triangulation of the vertices%s, "
+					 "which can be changed.", loading->has_lines ? " and lines" : "")));
 }
+
+/* A triangulation that is not Abacus' own, and is triangulated anew. */
+static void
+tell_retriangulated(abacus_delaunay delaunay, const Loading *loading)
+{
+	ereport(NOTICE,
+			(errmsg("the vertices have been triangulated anew"),
+			 errdetail("About the triangulation that was given: %s", abacus_delaunay_reason(delaunay)),
+			 loading->labels > 0 ? errhint("The simplices are new: their labels are NULL.") :
+			 loading->has_facets ? errhint("The facets are new: they have no markers.") : 0));
+}
+
+/* Edges between vertices on one circle that have been flipped. */
+static void
+tell_ties(uint64 ties, const Loading *loading)
+{
+	if (ties == 0)
+		return;
+	ereport(NOTICE,
+			(errmsg_plural(UINT64_FORMAT " edge between vertices on one circle is not the one that Abacus makes",
+						   UINT64_FORMAT " edges between vertices on one circle are not those that Abacus makes",
+						   (unsigned long) ties, ties),
+			 errdetail("Edges there have been replaced by Abacus' own."),
+			 loading->has_facets ? errhint("The new edges have no markers. Give edges that must stay as lines.") :
+			 errhint("Give edges that must stay as lines.")));
+}
+
+/* ---- Abacus' own triangulation ------------------------------------------------------------ */
 
 /* Triangulates the loaded vertices. */
 static void
@@ -168,52 +247,84 @@ triangulate_vertices(Change *change)
 }
 
 /*
+ * Writes a triangulation that is Abacus' own, but for ties; returns how many ties there were.
+ * `edges` are NULL, or those of its lines. Where ties are flipped, triangles inherit the labels of those
+ * that their centroids lay in.
+ */
+static uint64
+write_own(Change *change, NamedRows *edges)
+{
+	abacus_columns *columns = &change->writer.header->facts.columns;
+	uint64		ties;
+
+	host_run(change->writer.host, abacus_load_write, change->load, change->writer.header);
+	if (edges == NULL)
+		return 0;
+	loaded_lines_add(change, edges);
+	columns->inherits = columns->labels > 0 ? 1 : 0;
+	ties = change_restore_ties(change);
+	change_settle(change);
+	columns->inherits = 0;
+	return ties;
+}
+
+/* Reads the queries into the mesh, which is empty, and says what has become of them. */
+static void
+load(Change *change, Loading *loading, bool retriangulate)
+{
+	abacus_delaunay delaunay = read_triangulation(change, loading);
+	NamedRows  *edges = loading->has_lines ? loaded_lines_take(change) : NULL;
+
+	if (delaunay == ABACUS_DELAUNAY || (delaunay == ABACUS_WEAKLY_DELAUNAY && loading->has_lines))
+	{
+		tell_ties(write_own(change, edges), loading);
+		return;
+	}
+	if (retriangulate)
+	{
+		triangulate_vertices(change);
+		if (edges != NULL)
+			loaded_lines_add(change, edges);
+		tell_retriangulated(delaunay, loading);
+		return;
+	}
+	if (edges != NULL)
+		named_rows_free(edges);
+	host_run(change->writer.host, abacus_load_write, change->load, change->writer.header);
+	tell_unchangeable(delaunay, loading);
+}
+
+/*
  * abacus_load(mesh text, vertices text, simplices text, attributes text[],
  * lower float8[], upper float8[], reorient boolean, retriangulate boolean, labels text[], facets text,
- * split_nodes boolean)
+ * split_nodes boolean, lines text)
  *     -> bigint
  */
 Datum
 abacus_sql_load(PG_FUNCTION_ARGS)
 {
 	abacus_header *header = palloc0(sizeof(abacus_header));
-	Source		vertices;
-	Source		simplices;
-	Source		facets;
-	bool		has_facets = !PG_ARGISNULL(9);
-	bool		split_nodes = PG_GETARG_BOOL(10);
+	Loading		loading = {.has_facets = false};
 	Oid			mesh;
 	Change	   *change;
-	Host	   *host;
-	abacus_delaunay delaunay;
-	bool		retriangulate;
 	uint64		loaded;
 	Datum	   *labels = NULL;
-	int			label_count = 0;
 
-	if (PG_ARGISNULL(0) || PG_ARGISNULL(1) || PG_ARGISNULL(2) || PG_ARGISNULL(6) || PG_ARGISNULL(7) ||
-		PG_ARGISNULL(10))
-		ereport(ERROR,
-				(errcode(ERRCODE_NULL_VALUE_NOT_ALLOWED),
-				 errmsg("mesh, vertices, simplices, reorient, retriangulate and split_nodes must not be NULL")));
-	source_prepare(&vertices, text_to_cstring(PG_GETARG_TEXT_PP(1)));
-	source_prepare(&simplices, text_to_cstring(PG_GETARG_TEXT_PP(2)));
-	if (has_facets)
-		source_prepare(&facets, text_to_cstring(PG_GETARG_TEXT_PP(9)));
+	prepare(&loading, fcinfo);
 	if (!PG_ARGISNULL(8))
-		labels = shape_names(PG_GETARG_ARRAYTYPE_P(8), "labels", &label_count);
-	shape_dimension(&header->facts.form, dimension_of(&simplices, label_count));
-	if (label_count == 0)
-		tell_dimension(&header->facts.form, &vertices, &simplices);
+		labels = shape_names(PG_GETARG_ARRAYTYPE_P(8), "labels", &loading.labels);
+	shape_dimension(&header->facts.form, dimension_of(&loading.simplices, loading.labels));
+	if (loading.labels == 0)
+		tell_dimension(&header->facts.form, &loading.vertices, &loading.simplices);
 	if (!PG_ARGISNULL(3))
 		shape_attributes(header, PG_GETARG_ARRAYTYPE_P(3));
 	else
-		for (int i = source_first_attribute(&vertices, header->facts.form.dimension);
-			 i < source_columns(&vertices); i++)
-			shape_attribute(header, source_column_name(&vertices, i));
-	for (int i = 0; i < label_count; i++)
+		for (int i = source_first_attribute(&loading.vertices, header->facts.form.dimension);
+			 i < source_columns(&loading.vertices); i++)
+			shape_attribute(header, source_column_name(&loading.vertices, i));
+	for (int i = 0; i < loading.labels; i++)
 		shape_label(header, TextDatumGetCString(labels[i]));
-	if (split_nodes)
+	if (loading.split_nodes)
 		shape_check_split(header->facts.columns.attributes);
 	shape_domain(&header->facts.form, PG_ARGISNULL(4) ? NULL : PG_GETARG_ARRAYTYPE_P(4),
 				 PG_ARGISNULL(5) ? NULL : PG_GETARG_ARRAYTYPE_P(5));
@@ -221,24 +332,14 @@ abacus_sql_load(PG_FUNCTION_ARGS)
 	mesh = new_mesh(PG_GETARG_TEXT_PP(0), get_func_namespace(fcinfo->flinfo->fn_oid), header,
 					"abacus_load()");
 	change = change_begin(mesh, "abacus_load()");
-	host = change->writer.host;
+	if (loading.has_lines)
+		new_lines_check_mesh(change);
 	/* attributes that are apart are found by their places only */
-	if (split_nodes)
+	if (loading.split_nodes)
 		change->writer.header->facts.columns.apart = 0;
-	delaunay = read_triangulation(change, &vertices, &simplices, has_facets ? &facets : NULL,
-								  PG_GETARG_BOOL(6), split_nodes);
-	retriangulate = PG_GETARG_BOOL(7) && delaunay != ABACUS_DELAUNAY;
-	if (retriangulate)
-		triangulate_vertices(change);
-	else
-		host_run(host, abacus_load_write, change->load, change->writer.header);
+	load(change, &loading, PG_GETARG_BOOL(7));
 	loaded = change->writer.header->facts.census.simplices;
 	change_end(change);
-	if (delaunay != ABACUS_DELAUNAY)
-		tell(delaunay, retriangulate, label_count > 0, has_facets);
-	if (has_facets)
-		source_finish(&facets);
-	source_finish(&simplices);
-	source_finish(&vertices);
+	finish(&loading);
 	PG_RETURN_INT64((int64) loaded);
 }
