@@ -1,0 +1,89 @@
+-- Regions as a column of published tables.
+BEGIN;
+SELECT no_plan();
+
+SELECT abacus_triangulate('field', 'SELECT 10 * x + y AS id, x, y, x + 2 * y AS h FROM generate_series(0, 9) AS x, generate_series(0, 9) AS y');
+SELECT abacus_constrain('field', 'SELECT l, n, p FROM (VALUES (1, ARRAY[11, 71, 77, 17, 11]), (2, ARRAY[33, 53, 55, 35, 33])) AS v (l, ids), unnest(ids) WITH ORDINALITY AS u (p, n)');
+
+-- a mesh without regions has no such column
+SELECT abacus_publish('field', geometry => false);
+SELECT hasnt_column('field_cells', 'region', 'without regions there is no column');
+SELECT abacus_unpublish('field');
+
+SELECT abacus_region('field', $$VALUES ('farm', 1), ('farm', 2)$$);
+SELECT abacus_region('field', $$VALUES ('lake', 4.5, 4.5)$$);
+SELECT abacus_publish('field', geometry => false);
+SELECT col_type_is('field_cells', 'region', 'text', 'cells have a region');
+SELECT hasnt_column('field_points', 'region', 'points have none');
+CREATE FUNCTION pg_temp.is_right(what text) RETURNS SETOF text LANGUAGE sql AS $$
+    SELECT set_eq('SELECT code, v0, v1, v2 FROM field_cells WHERE region IS NOT DISTINCT FROM ' || coalesce(quote_literal(region), 'NULL::text'),
+        CASE WHEN region IS NULL THEN 'SELECT code, v0, v1, v2 FROM abacus_simplices(''field'') EXCEPT SELECT s.code, s.v0, s.v1, s.v2 FROM abacus_regions(''field'') AS r, abacus_simplices(''field'', within => r.region) AS s'
+             ELSE format('SELECT code, v0, v1, v2 FROM abacus_simplices(''field'', within => %L)', region) END, what || ': ' || coalesce(region, 'outside'))
+    FROM (SELECT region FROM abacus_regions('field') UNION ALL SELECT NULL) AS r
+$$;
+SELECT pg_temp.is_right('each cell has its region');
+SELECT set_eq('SELECT code, region FROM field_cells WHERE code > 1 << 30', 'SELECT code, region FROM field_cells WHERE (code > 1 << 30) IS TRUE', 'a stretch of the curve has them, too');
+SELECT results_eq('SELECT region, count(*) FROM field_cells GROUP BY region ORDER BY region', $$VALUES ('farm', 64::bigint), ('lake', 8), (NULL, 90)$$, 'as many as there are');
+
+-- they follow the mesh
+SELECT abacus_insert('field', 'SELECT 1000 + 10 * x + y, x + 0.3, y + 0.4, 0 FROM generate_series(0, 8) AS x, generate_series(0, 8) AS y');
+SELECT abacus_delete('field', 'VALUES (44, 4, 4, 12), (22, 2, 2, 6)');
+SELECT pg_temp.is_right('after points have come and gone');
+SELECT abacus_unregion('field', 'lake');
+SELECT pg_temp.is_right('after a region has gone');
+SELECT abacus_region('field', $$VALUES ('pond', 2)$$);
+SELECT pg_temp.is_right('after another has come');
+ALTER TABLE field RENAME TO heath;
+SELECT is((SELECT count(*) FROM field_cells WHERE region = 'pond'), (SELECT triangles FROM abacus_regions('heath') WHERE region = 'pond'), 'when the mesh has another name');
+ALTER TABLE heath RENAME TO field;
+ANALYZE field_cells;
+SELECT is((SELECT n_distinct::int FROM pg_stats WHERE tablename = 'field_cells' AND attname = 'region'), 2, 'ANALYZE counts regions');
+SELECT abacus_unregion('field', r) FROM unnest(ARRAY['farm', 'pond']) AS r;
+SELECT is((SELECT count(region) FROM field_cells), 0::bigint, 'without regions the column is NULL');
+
+-- tracking: the mesh follows its table, and the column the mesh
+CREATE TABLE spot AS SELECT id, x, y FROM field_points;
+SELECT abacus_triangulate('kept', 'SELECT * FROM spot', lines => 'SELECT l, n, p FROM (VALUES (1, ARRAY[11, 71, 77, 17, 11])) AS v (l, ids), unnest(ids) WITH ORDINALITY AS u (p, n)');
+SELECT abacus_region('kept', $$VALUES ('inside', 1)$$);
+SELECT abacus_track('kept', 'spot');
+SELECT abacus_publish('kept', geometry => false);
+INSERT INTO spot VALUES (2000, 4.1, 4.2), (2001, 0.1, 0.2);
+DELETE FROM spot WHERE id BETWEEN 1020 AND 1040;
+SELECT set_eq($$SELECT code, v0 FROM kept_cells WHERE region = 'inside'$$, $$SELECT code, v0 FROM abacus_simplices('kept', within => 'inside')$$, 'a tracked mesh');
+
+-- an attribute of the same name gets a number
+SELECT abacus_triangulate('named', 'SELECT 10 * x + y AS id, x, y, 7 AS region FROM generate_series(0, 3) AS x, generate_series(0, 3) AS y');
+SELECT abacus_constrain('named', 'VALUES (1, 1, 11), (1, 2, 21), (1, 3, 22), (1, 4, 11)');
+SELECT abacus_region('named', $$VALUES ('"it''s"', 1)$$);
+SELECT abacus_publish('named', geometry => false);
+SELECT is((SELECT region || region_2 FROM named_cells WHERE region IS NOT NULL), '"it''s"7', 'the attribute is region_2');
+
+-- a reader of the mesh who may not read its regions
+CREATE ROLE region_reader;
+GRANT SELECT ON named, named_vertices, named_cells TO region_reader;
+SET ROLE region_reader;
+SELECT is((SELECT count(*) FROM (SELECT v0, v1, v2, corners FROM named_cells OFFSET 0) AS c), 18::bigint, 'may read all other columns');
+SELECT throws_ok('SELECT region FROM named_cells', '42501', 'permission denied for table named_regions');
+RESET ROLE;
+CREATE VIEW region_view AS SELECT v0, region FROM named_cells;
+GRANT SELECT ON region_view TO region_reader;
+SET ROLE region_reader;
+SELECT is((SELECT count(region) FROM region_view), 1::bigint, 'a view reads with the rights of its owner');
+RESET ROLE;
+GRANT SELECT ON named_regions TO region_reader;
+SET ROLE region_reader;
+SELECT is((SELECT count(region) FROM named_cells), 1::bigint, 'with SELECT the reader may');
+RESET ROLE;
+-- ANALYZE passes over a table whose owner may not read the regions
+REVOKE SELECT ON named_regions FROM region_reader;
+GRANT USAGE, CREATE ON SCHEMA public TO region_reader;
+ALTER FOREIGN TABLE named_cells OWNER TO region_reader;
+SELECT lives_ok('ANALYZE named_cells', 'ANALYZE of a table whose owner may not');
+SELECT is((SELECT reltuples FROM pg_class WHERE oid = 'named_cells'::regclass), -1::real, 'skips it');
+
+-- damage: a number without a name
+DELETE FROM named_regions;
+SELECT throws_ok('SELECT region FROM named_cells', 'XX001', NULL, 'a number without a name');
+
+SELECT finish();
+ROLLBACK;
