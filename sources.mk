@@ -46,6 +46,7 @@ CORE.draw += src/draw/captions.cpp
 CORE.draw += src/draw/develop.cpp
 CORE.draw += src/draw/frame.cpp
 CORE.draw += src/draw/letters.cpp
+CORE.draw += src/draw/overlay.cpp
 CORE.draw += src/draw/palette.cpp
 CORE.draw += src/draw/picture.cpp
 CORE.draw += src/draw/plane.cpp

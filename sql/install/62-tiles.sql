@@ -15,12 +15,14 @@ CREATE FUNCTION abacus_tile_picture(
     max_edge double precision DEFAULT NULL,
     ramp text DEFAULT NULL,
     contours double precision DEFAULT NULL,
-    within text DEFAULT NULL)
+    within text DEFAULT NULL,
+    regions boolean DEFAULT false,
+    lines boolean DEFAULT false)
 RETURNS bytea
 AS 'MODULE_PATHNAME', 'abacus_sql_tile_picture'
 LANGUAGE C STABLE PARALLEL SAFE COST 1000000;
-COMMENT ON FUNCTION abacus_tile_picture(regclass, integer, integer, integer, integer, double precision[], integer, text, double precision[], boolean, double precision, double precision, text, double precision, text) IS
-    'a tile of a web map as a PNG, drawn as by abacus_draw, with nothing behind the mesh. The coordinates of the mesh are longitude and latitude (SRID 4326), Web Mercator (3857), or lie in a square with this lower left corner and side (world). within names a region of the mesh; all else is as outside of the mesh. Shapes: world is {x, y, side}; range is {first, last}. Units: size in pixels; world and max_edge in those of the coordinates; range and contours in those of the attribute; heights in metres with SRID 4326. Errors: 22023 no such tile, another SRID, a size out of range, an attribute without range, a mesh of dimension 3; 55000 neither srid nor world for a mesh without SRID; 2202E world of another length; 42704 no such region';
+COMMENT ON FUNCTION abacus_tile_picture(regclass, integer, integer, integer, integer, double precision[], integer, text, double precision[], boolean, double precision, double precision, text, double precision, text, boolean, boolean) IS
+    'a tile of a web map as a PNG, drawn as by abacus_draw, with nothing behind the mesh. The coordinates of the mesh are longitude and latitude (SRID 4326), Web Mercator (3857), or lie in a square with this lower left corner and side (world). within names a region of the mesh; all else is as outside of the mesh. regions and lines are those of abacus_draw. Shapes: world is {x, y, side}; range is {first, last}. Units: size in pixels; world and max_edge in those of the coordinates; range and contours in those of the attribute; heights in metres with SRID 4326. Errors: 22023 no such tile, another SRID, a size out of range, an attribute without range, a mesh of dimension 3; 55000 neither srid nor world for a mesh without SRID; 2202E world of another length; 42704 no such region';
 
 CREATE FUNCTION abacus_tile_vector(
     mesh regclass,

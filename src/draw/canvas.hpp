@@ -21,6 +21,7 @@
 #pragma once
 
 #include "draw/frame.hpp"
+#include "draw/overlay.hpp"
 #include "draw/palette.hpp"
 #include "draw/picture.hpp"
 #include "draw/raster.hpp"
@@ -45,6 +46,8 @@ public:
 
     /// Corners outside the window are welcome, values may be NaN.
     void add(const Patch &patch);
+    /// The fixed edges of a patch alone.
+    void add_edges(const Patch &patch);
 
     /// Whether no patch so far covers anything of the picture.
     bool is_blank() const;
@@ -80,6 +83,8 @@ private:
     double density(double spacing) const;
     void deposit(std::int32_t x, std::int32_t y, double covered, double count, Shown shown,
                  double ink);
+    /// The corners of a patch in pixels; false if none of the picture is near it.
+    bool place(Patch &patch, Box<2> &box) const;
 
     bool has_values() const { return low_ <= high_; }
     bool is_shaded() const { return is_shaded(drawing_) && low_ < high_; }
@@ -102,6 +107,7 @@ private:
     Frame frame_;
     Scale range_;
     Raster raster_;
+    Overlay overlay_;
     Arena<Pixel> pixels_;
     Arena<float> contours_; // shares of pixels under them; empty if there are none
     Arena<double> heights_; // shares of patches with values, times the value; empty unless shaded

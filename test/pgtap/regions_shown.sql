@@ -1,4 +1,4 @@
--- Regions as a column of published tables.
+-- Regions and fixed edges seen: a column of published tables, pictures.
 BEGIN;
 SELECT no_plan();
 
@@ -84,6 +84,42 @@ SELECT is((SELECT reltuples FROM pg_class WHERE oid = 'named_cells'::regclass), 
 -- damage: a number without a name
 DELETE FROM named_regions;
 SELECT throws_ok('SELECT region FROM named_cells', 'XX001', NULL, 'a number without a name');
+
+-- pictures
+CREATE FUNCTION pg_temp.messages(command text) RETURNS text LANGUAGE plpgsql AS $$
+DECLARE
+    plain text;
+BEGIN
+    SET LOCAL client_min_messages = error;
+    EXECUTE command INTO plain;
+    RETURN md5(plain);
+END $$;
+SELECT abacus_triangulate('park', 'SELECT 100 * x + y AS id, x, y, x + 2 * y AS h FROM generate_series(0, 40) AS x, generate_series(0, 40) AS y');
+SELECT is(pg_temp.messages(format('SELECT %s', shown)), pg_temp.messages(format('SELECT %s', plain)), 'a mesh without lines and regions: ' || shown)
+FROM (VALUES ($$abacus_draw('park', 60, regions => true, lines => true)$$, $$abacus_draw('park', 60)$$),
+    ($$abacus_tile_picture('park', 0, 0, 0, world => '{0,0,40}', regions => true, lines => true)$$, $$abacus_tile_picture('park', 0, 0, 0, world => '{0,0,40}')$$)) AS v (shown, plain);
+SELECT abacus_constrain('park', 'VALUES (1, 1, 505), (1, 2, 3505), (1, 3, 3535), (1, 4, 535), (1, 5, 505)');
+SELECT abacus_constrain('park', 'VALUES (2, 1, 202), (2, 2, 3802)', kind => 'soft');
+SELECT abacus_region('park', $$VALUES ('lawn', 1)$$);
+CREATE TABLE picture AS SELECT call, wish, pg_temp.messages(format('SELECT %s%s)', call, wish)) AS hash
+FROM unnest(ARRAY[$$abacus_draw('park', 60$$, $$abacus_draw('park', 60, attribute => 'h'$$, $$abacus_draw('park', 60, attribute => 'h', exaggeration => 1, edges => false, within => 'lawn'$$,
+        $$abacus_draw('park', 60, lower => '{1,1}', upper => '{20,20}'$$, $$abacus_tile_picture('park', 0, 0, 0, world => '{0,0,40}', size => 60$$,
+        $$abacus_tile_picture('park', 0, 0, 0, world => '{0,0,40}', size => 12$$, $$abacus_tile_picture('park', 0, 0, 0, world => '{0,0,40}', size => 12, attribute => 'h', range => '{0,120}'$$]) AS call,
+    unnest(ARRAY['', ', regions => true', ', lines => true', ', regions => true, lines => true']) AS wish;
+SELECT is((SELECT count(DISTINCT hash) FROM picture AS p WHERE p.call = c.call), 4::bigint, 'regions and lines are seen: ' || call) FROM (SELECT DISTINCT call FROM picture) AS c;
+SELECT isnt(abacus_draw('park', 60, lines => true, lower => '{0,0}', upper => '{40,4}'), abacus_draw('park', 60, lower => '{0,0}', upper => '{40,4}'), 'a soft line is seen');
+SELECT is(abacus_draw('park', 60, lines => NULL, regions => NULL), abacus_draw('park', 60), 'NULL is false');
+SELECT is(abacus_draw('park', 60, regions => true, lower => '{36,36}', upper => '{40,40}'), abacus_draw('park', 60, lower => '{36,36}', upper => '{40,40}'), 'outside of regions nothing is tinted');
+ALTER TABLE park RENAME TO green;
+SELECT is(md5(abacus_draw('green', 60, regions => true)::text), (SELECT hash FROM picture WHERE call = $$abacus_draw('park', 60$$ AND wish = ', regions => true'), 'with another name of the mesh');
+GRANT SELECT ON green, park_vertices TO region_reader;
+SET ROLE region_reader;
+SELECT lives_ok($$SELECT abacus_draw('green', 60, regions => true, lines => true)$$, 'pictures need no right to read the tables of lines and regions');
+RESET ROLE;
+SELECT abacus_unregion('green', 'lawn');
+SELECT is(pg_temp.messages($$SELECT abacus_draw('green', 60, regions => true)$$), md5(abacus_draw('green', 60)::text), 'a region that has gone');
+SELECT abacus_octree_create('leaves', 2, '{0,0}', '{8,8}');
+SELECT is(pg_temp.messages($$SELECT abacus_draw('leaves', 20, regions => true, lines => true)$$), md5(abacus_draw('leaves', 20)::text), 'an octree has neither');
 
 SELECT finish();
 ROLLBACK;

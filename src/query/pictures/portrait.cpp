@@ -64,10 +64,21 @@ public:
             patch.value[i] = value(v);
         }
         set_label(page, simplex, patch);
+        set_fixed(page.fixed(simplex), patch);
         return true;
     }
 
 private:
+    static void set_fixed(const FixedFacets<2> &fixed, Patch &patch) {
+        patch.region = fixed.region();
+        for (int i = 0; i < 3; ++i) { // opposite of corner i; it ends two further
+            const Fixed kind = fixed[i];
+            patch.edge[(i + 2) % 3] = kind == Fixed::hard   ? Patch::Edge::hard
+                                      : kind == Fixed::soft ? Patch::Edge::soft
+                                                            : Patch::Edge::free;
+        }
+    }
+
     // a tile has a plane of its own; other drawings use coordinates
     const MapPlane plane_;
 };
@@ -191,6 +202,14 @@ Portrait draw(const Host &host, const abacus_facts &facts, const abacus_drawing 
     return draw_patches(host, facts, drawing, margin, usual, View::unit, show);
 }
 
+/// What a drawing with a window shows with its margin.
+BoxRegion<2> shown(const abacus_drawing &drawing, std::int32_t margin) {
+    const abacus_drawing wider = widened(drawing, margin);
+    const MapPlane plane(drawing.is_geographic != 0);
+    return BoxRegion<2>(plane.unproject(
+        Box<2>({wider.lower[0], wider.lower[1]}, {wider.upper[0], wider.upper[1]})));
+}
+
 } // namespace
 
 Portrait draw_mesh(const Host &host, const abacus_facts &facts, const abacus_drawing &drawing) {
@@ -198,12 +217,25 @@ Portrait draw_mesh(const Host &host, const abacus_facts &facts, const abacus_dra
         return draw<2>(host, facts, drawing, 0, nullptr, FlatView(host, facts, drawing),
                        ABACUS_RAMP_TERRAIN);
     const std::int32_t margin = Canvas::margin_of(drawing);
-    const abacus_drawing wider = widened(drawing, margin);
-    const MapPlane plane(drawing.is_geographic != 0);
-    const BoxRegion<2> region(plane.unproject(
-        Box<2>({wider.lower[0], wider.lower[1]}, {wider.upper[0], wider.upper[1]})));
+    const BoxRegion<2> region = shown(drawing, margin);
     return draw<2>(host, facts, drawing, margin, &region, FlatView(host, facts, drawing),
                    ABACUS_RAMP_TERRAIN);
+}
+
+void draw_fixed_edges(const Host &host, const abacus_facts &facts, const abacus_drawing &drawing,
+                      Canvas &canvas) {
+    if (facts.census.lines == 0 || (drawing.lines == 0 && drawing.regions == 0)) return;
+    abacus_drawing edges = drawing;
+    edges.attribute = -1;
+    const BoxRegion<2> region = shown(drawing, Canvas::margin_of(drawing));
+    RangeScan<2> pages(host, facts, &region, pages_in<2>(drawing.extent));
+    FlatView view(host, facts, edges);
+    Patch patch;
+    while (pages.advance()) {
+        const PageView<2> &page = pages.page();
+        for (int s = 0; page.is_lined() && s < page.simplices(); ++s)
+            if (page.fixed(s).count() > 0 && view.show(page, s, patch)) canvas.add_edges(patch);
+    }
 }
 
 Portrait draw_section(const Host &host, const abacus_facts &facts, const abacus_section &section,

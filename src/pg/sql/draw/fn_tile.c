@@ -45,7 +45,9 @@ enum
 	PICTURE_MAX_EDGE,
 	PICTURE_RAMP,
 	PICTURE_CONTOURS,
-	PICTURE_WITHIN
+	PICTURE_WITHIN,
+	PICTURE_REGIONS,
+	PICTURE_LINES
 };
 
 /* ... of abacus_tile_vector */
@@ -179,7 +181,7 @@ tile_attribute(FunctionCallInfo fcinfo, int argument, abacus_names names)
  * abacus_tile_picture(mesh regclass, z int, x int, y int, srid int,
  * world float8[], size int,
  * attribute text, range float8[], edges boolean, exaggeration float8,
- * max_edge float8, ramp text, contours float8, within text) -> bytea
+ * max_edge float8, ramp text, contours float8, within text, regions boolean, lines boolean) -> bytea
  */
 Datum
 abacus_sql_tile_picture(PG_FUNCTION_ARGS)
@@ -203,6 +205,7 @@ abacus_sql_tile_picture(PG_FUNCTION_ARGS)
 					 &drawing.extent);
 	drawing_ramp(fcinfo, PICTURE_RAMP, &drawing);
 	drawing_contours(fcinfo, PICTURE_CONTOURS, &drawing);
+	drawing_overlay(fcinfo, PICTURE_REGIONS, PICTURE_LINES, &drawing);
 	drawing.transparent = true;
 	host_run(host, abacus_tile_picture, &host->table, &reader->header.facts, &tile, &drawing, &memory,
 			 &picture);
