@@ -178,6 +178,7 @@ CORE.query_whole += src/query/volume/volume.cpp
 CORE.query_whole += src/query/pictures/portrait.cpp
 CORE.query_whole += src/query/pictures/ray_portrait.cpp
 
+CORE.tiles += src/tiles/fixed_lines.cpp
 CORE.tiles += src/tiles/picture_tile.cpp
 CORE.tiles += src/tiles/terrain_tile.cpp
 CORE.tiles += src/tiles/tile_lines.cpp

@@ -4,8 +4,10 @@
 #include "query/pages/extent.hpp"
 #include "query/pages/page_simplex.hpp"
 #include "query/pages/page_values.hpp"
+#include "query/scan/extent_pages.hpp"
+#include "query/scan/range_scan.hpp"
 #include "query/shapes/outline.hpp"
-#include "tiles/tile_lines.hpp"
+#include "tiles/fixed_lines.hpp"
 #include "tiles/tile_samples.hpp"
 
 #include <algorithm>
@@ -30,17 +32,26 @@ struct Corner {
 };
 using Triangle = std::array<Corner, 3>; // counterclockwise where y points up
 
+const char *name_of(const abacus_region_names &names, RegionNumber region) {
+    const char *name = nullptr;
+    host::require(names.name(names.context, region, &name));
+    return name;
+}
+
 class Maker {
 public:
     Maker(const Host &host, const abacus_facts &facts, const TileWindow &window,
-          const abacus_tile_vector_kind &kind, const abacus_tile_memory &memory)
-        : host_(host), facts_(facts), window_(window), kind_(kind), memory_(memory),
-          values_(host, facts, kind.attribute), triangles_(host), hull_(host), bytes_(host) {}
+          const abacus_tile_vector_kind &kind, const abacus_region_names *names,
+          const abacus_tile_memory &memory)
+        : host_(host), facts_(facts), window_(window), kind_(kind), names_(names), memory_(memory),
+          values_(host, facts, kind.attribute), triangles_(host), regions_(host), hull_(host),
+          fixed_(host), bytes_(host) {}
 
     Png make() {
         if (!read() || !write_all()) {
             sample();
             find_hull();
+            find_fixed();
             write_overview();
         }
         Png result(host_);
@@ -66,6 +77,8 @@ private:
     bool read(const PageView<2> &page);
     void sample();
     void find_hull();
+    void find_fixed();
+    void add_fixed(const PageView<2> &page, int simplex);
     void add_triangles(VectorLayer &layer) const;
     void add_vertices(VectorLayer &layer) const;
     void add_contours(VectorLayer &layer) const;
@@ -77,10 +90,13 @@ private:
     const abacus_facts &facts_;
     const TileWindow &window_;
     const abacus_tile_vector_kind &kind_;
+    const abacus_region_names *names_; // null: triangles have none
     const abacus_tile_memory &memory_;
     PageValues<2> values_;
     Arena<Triangle> triangles_;
+    Arena<RegionNumber> regions_; // of the triangles
     TileLines hull_;
+    FixedLines fixed_;
     TileBuffer bytes_;
 };
 
@@ -114,8 +130,35 @@ bool Maker::read(const PageView<2> &page) {
         if (triangles_.size() == most_tile_triangles) return false;
         for (int i = 0; i < 3; ++i) triangle[i].value = values_.value(page.corner(s, i));
         triangles_.push_back(triangle);
+        regions_.push_back(page.region(s));
+        add_fixed(page, s);
     }
     return true;
+}
+
+void Maker::add_fixed(const PageView<2> &page, int simplex) {
+    const FixedFacets<2> fixed = page.fixed(simplex);
+    for (int i = 0; i < 3; ++i) {
+        if (!fixed.is_fixed(i)) continue;
+        const auto end = [&](int next) {
+            return place_of_vertex(page.point(page.corner(simplex, (i + next) % 3)));
+        };
+        fixed_.add(fixed[i], end(1), end(2));
+    }
+}
+
+/// Of a tile with many triangles.
+void Maker::find_fixed() {
+    fixed_.clear();
+    if (facts_.census.lines == 0) return;
+    const BoxRegion<2> region(window_.in_mesh(margin));
+    RangeScan<2> pages(host_, facts_, &region, pages_in<2>(kind_.extent));
+    while (pages.advance()) {
+        const PageView<2> &page = pages.page();
+        for (int s = 0; page.is_lined() && s < page.simplices(); ++s)
+            if (page.fixed(s).count() > 0 && !page.is_ghost(s) && is_in<2>(kind_.extent, page, s))
+                add_fixed(page, s);
+    }
 }
 
 /// Replaces the triangles by two for each square of a grid on which the attribute is known.
@@ -184,7 +227,8 @@ std::size_t cut(const std::array<Point<2>, 8> &polygon, std::size_t size, int ax
 
 void Maker::add_triangles(VectorLayer &layer) const {
     const Box<2> box = buffered_tile();
-    for (const Triangle &triangle : triangles_) {
+    for (std::size_t n = 0; n < triangles_.size(); ++n) {
+        const Triangle &triangle = triangles_[n];
         std::array<Point<2>, 8> polygon, other; // each side of the box adds at most one corner
         std::size_t size = 3;
         for (std::size_t i = 0; i < 3; ++i) polygon[i] = triangle[i].at;
@@ -211,6 +255,8 @@ void Maker::add_triangles(VectorLayer &layer) const {
             sum += triangle[i].value / 3;
         }
         layer.tag(3, sum);
+        if (names_ != nullptr && regions_[n] != no_region)
+            layer.tag_word(4, regions_[n], name_of(*names_, regions_[n]));
     }
 }
 
@@ -280,21 +326,25 @@ void Maker::add_contours(VectorLayer &layer) const {
             lines.add(level, rise, fall);
         }
     });
-    lines.put_into(layer, 0);
+    lines.put_into(layer, [](VectorLayer &l, double level) { l.tag(0, level); });
 }
 
 void Maker::write_overview() {
     TileWriter tile(bytes_);
-    VectorLayer contours(host_, "contours", {"value"}), hull(host_, "hull", {});
+    VectorLayer contours(host_, "contours", {"value"}), fixed(host_, "fixed", {"kind"}),
+        hull(host_, "hull", {});
     add_contours(contours);
     contours.write(host_, tile);
-    hull_.put_into(hull, -1);
+    fixed_.put_into(fixed);
+    fixed.write(host_, tile);
+    hull_.put_into(hull, nullptr);
     hull.write(host_, tile);
 }
 
 /// False, with nothing written, if that is too large.
 bool Maker::write_all() {
     VectorLayer triangles(host_, "triangles", {"v0", "v1", "v2", "value"});
+    if (names_ != nullptr) triangles.add_key("region");
     VectorLayer vertices(host_, "vertices", {"id", "value"});
     add_triangles(triangles);
     add_vertices(vertices);
@@ -312,13 +362,14 @@ bool Maker::write_all() {
 } // namespace
 
 Png vector_tile(const Host &host, const abacus_facts &facts, const abacus_tile &tile,
-                const abacus_tile_vector_kind &kind, const abacus_tile_memory &memory) {
+                const abacus_tile_vector_kind &kind, const abacus_region_names *names,
+                const abacus_tile_memory &memory) {
     const TileWindow window(tile, facts);
     if (kind.attribute >= static_cast<std::int32_t>(facts.columns.attributes))
         throw Error(ABACUS_ERROR_ARGUMENT, "the mesh has no such attribute");
     if (!(std::isfinite(kind.contour_interval) && kind.contour_interval >= 0))
         throw Error(ABACUS_ERROR_ARGUMENT, "interval of the contours is negative or not finite");
-    return Maker(host, facts, window, kind, memory).make();
+    return Maker(host, facts, window, kind, names, memory).make();
 }
 
 } // namespace abacus

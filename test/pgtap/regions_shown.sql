@@ -1,4 +1,4 @@
--- Regions and fixed edges seen: a column of published tables, pictures.
+-- Regions and fixed edges seen: a column of published tables, pictures, vector tiles.
 BEGIN;
 SELECT no_plan();
 
@@ -115,8 +115,21 @@ SELECT is(md5(abacus_draw('green', 60, regions => true)::text), (SELECT hash FRO
 GRANT SELECT ON green, park_vertices TO region_reader;
 SET ROLE region_reader;
 SELECT lives_ok($$SELECT abacus_draw('green', 60, regions => true, lines => true)$$, 'pictures need no right to read the tables of lines and regions');
+-- vector tiles have names of regions, so they do
+SELECT throws_ok($$SELECT abacus_tile_vector('green', 0, 0, 0, world => '{0,0,40}')$$, '42501', 'permission denied for table park_regions');
 RESET ROLE;
+GRANT SELECT ON park_regions TO region_reader;
+SET ROLE region_reader;
+SELECT isnt(position('lawn'::bytea IN abacus_tile_vector('green', 0, 0, 0, world => '{0,0,40}')), 0, 'a vector tile names the region');
+RESET ROLE;
+SELECT is(position('lawn'::bytea IN abacus_tile_vector('green', 4, 0, 0, world => '{0,0,40}')), 0, 'but not where it is not');
+SELECT isnt(position('soft'::bytea IN abacus_tile_vector('green', 0, 0, 0, world => '{0,0,40}')), 0, 'and has fixed edges');
+SELECT is(position('hard'::bytea IN abacus_tile_vector('green', 4, 0, 15, world => '{0,0,40}')), 0, 'where they are');
 SELECT abacus_unregion('green', 'lawn');
+SELECT is(position('lawn'::bytea IN abacus_tile_vector('green', 0, 0, 0, world => '{0,0,40}')), 0, 'a region that has gone is in no tile');
+SELECT abacus_unconstrain('green', 'VALUES (1), (2)');
+SELECT is(position('fixed'::bytea IN abacus_tile_vector('green', 0, 0, 0, world => '{0,0,40}')), 0, 'nor are lines that have gone');
+SELECT abacus_constrain('green', 'VALUES (1, 1, 505), (1, 2, 3505)');
 SELECT is(pg_temp.messages($$SELECT abacus_draw('green', 60, regions => true)$$), md5(abacus_draw('green', 60)::text), 'a region that has gone');
 SELECT abacus_octree_create('leaves', 2, '{0,0}', '{8,8}');
 SELECT is(pg_temp.messages($$SELECT abacus_draw('leaves', 20, regions => true, lines => true)$$), md5(abacus_draw('leaves', 20)::text), 'an octree has neither');

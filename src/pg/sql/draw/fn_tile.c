@@ -6,12 +6,15 @@
 
 #include <math.h>
 
+#include "mb/pg_wchar.h"
 #include "utils/builtins.h"
 
 #include "abacus/tile.h"
 #include "pg/base/settings.h"
 #include "pg/base/sql_function.h"
+#include "pg/host/guard.h"
 #include "pg/mesh/reader.h"
+#include "pg/mesh/regions_table.h"
 #include "pg/mesh/shape.h"
 #include "pg/sql/arguments/attribute.h"
 #include "pg/sql/arguments/extent_arguments.h"
@@ -212,6 +215,27 @@ abacus_sql_tile_picture(PG_FUNCTION_ARGS)
 	PG_RETURN_BYTEA_P(drawing_finish(host, &picture));
 }
 
+/* The names of regions for the core. */
+typedef struct TileNames
+{
+	Host	   *host;
+	RegionNames *regions;
+} TileNames;
+
+/* Called by the core. */
+static abacus_host_status
+find_name(void *context, uint32_t region, const char **name)
+{
+	TileNames  *names = context;
+	const char *found;
+
+	GUARD_BEGIN();
+	found = region_names_find(names->regions, region);
+	*name = pg_server_to_any(found, (int) strlen(found), PG_UTF8);
+	GUARD_END(names->host);
+	return ABACUS_HOST_OK;
+}
+
 /*
  * abacus_tile_vector(mesh regclass, z int, x int, y int, srid int,
  * world float8[], attribute text,
@@ -223,6 +247,8 @@ abacus_sql_tile_vector(PG_FUNCTION_ARGS)
 	abacus_tile tile;
 	abacus_tile_memory memory;
 	abacus_tile_vector_kind kind = {0};
+	TileNames	names;
+	const abacus_region_names by_number = {find_name, &names};
 	abacus_picture bytes = {0};
 	Reader	   *reader = tile_begin(fcinfo, &tile, &memory);
 	Host	   *host;
@@ -234,8 +260,10 @@ abacus_sql_tile_vector(PG_FUNCTION_ARGS)
 	kind.contour_interval = drawing_interval(fcinfo, VECTOR_CONTOURS);
 	extent_arguments(fcinfo, VECTOR_MAX_EDGE, VECTOR_WITHIN, PG_GETARG_OID(TILE_MESH), &reader->header,
 					 &kind.extent);
-	host_run(host, abacus_tile_vector, &host->table, &reader->header.facts, &tile, &kind, &memory,
-			 &bytes);
+	names.host = host;
+	names.regions = region_names_read(PG_GETARG_OID(TILE_MESH), &reader->header.facts);
+	host_run(host, abacus_tile_vector, &host->table, &reader->header.facts, &tile, &kind,
+			 reader->header.facts.census.regions > 0 ? &by_number : NULL, &memory, &bytes);
 	PG_RETURN_BYTEA_P(drawing_finish(host, &bytes));
 }
 
