@@ -1,4 +1,4 @@
--- Regions and fixed edges seen: a column of published tables, pictures, vector tiles.
+-- Regions and fixed edges seen: the region at a place, a column of published tables, pictures, vector tiles.
 BEGIN;
 SELECT no_plan();
 
@@ -6,6 +6,11 @@ SELECT abacus_triangulate('field', 'SELECT 10 * x + y AS id, x, y, x + 2 * y AS 
 SELECT abacus_constrain('field', 'SELECT l, n, p FROM (VALUES (1, ARRAY[11, 71, 77, 17, 11]), (2, ARRAY[33, 53, 55, 35, 33])) AS v (l, ids), unnest(ids) WITH ORDINALITY AS u (p, n)');
 
 -- a mesh without regions has no such column
+SELECT is(abacus_region_at('field', 2.5, 2.2), NULL, 'no region at a place');
+SELECT throws_ok($$SELECT abacus_region_at('pg_class', 0, 0)$$, '42809', NULL, 'not a mesh');
+SELECT abacus_create('solid', 3);
+SELECT throws_ok($$SELECT abacus_region_at('solid', 0, 0)$$, '22023', NULL, 'a mesh in space');
+SELECT throws_ok($$SELECT abacus_region_at('field', 'NaN', 0)$$, '22023', 'x is not a number');
 SELECT abacus_publish('field', geometry => false);
 SELECT hasnt_column('field_cells', 'region', 'without regions there is no column');
 SELECT abacus_unpublish('field');
@@ -28,10 +33,16 @@ SELECT results_eq('SELECT region, count(*) FROM field_cells GROUP BY region ORDE
 -- they follow the mesh
 SELECT abacus_insert('field', 'SELECT 1000 + 10 * x + y, x + 0.3, y + 0.4, 0 FROM generate_series(0, 8) AS x, generate_series(0, 8) AS y');
 SELECT abacus_delete('field', 'VALUES (44, 4, 4, 12), (22, 2, 2, 6)');
+SELECT set_eq($$SELECT code, v0, v1, v2, region FROM field_cells WHERE region IS NOT NULL$$,
+    $$SELECT code, v0, v1, v2, abacus_region_at('field', (c[1][1] + c[2][1] + c[3][1]) / 3, (c[1][2] + c[2][2] + c[3][2]) / 3) FROM abacus_cells('field') AS a (code, v0, v1, v2, v3, c)
+      WHERE abacus_region_at('field', (c[1][1] + c[2][1] + c[3][1]) / 3, (c[1][2] + c[2][2] + c[3][2]) / 3) IS NOT NULL$$, 'the region at a place');
+SELECT is(abacus_region_at('field', x, y), r, format('at %s, %s', x, y)) FROM (VALUES (100, 0, NULL), (0.5, 0.5, NULL), (2.5, 2.2, 'farm'), ('Infinity'::float8, 0, NULL), (NULL, 1, NULL), (4.4, 4.3, 'lake')) AS v (x, y, r);
 SELECT pg_temp.is_right('after points have come and gone');
 SELECT abacus_unregion('field', 'lake');
 SELECT pg_temp.is_right('after a region has gone');
+SELECT is(abacus_region_at('field', 4.4, 4.3), NULL, 'no region is there any more');
 SELECT abacus_region('field', $$VALUES ('pond', 2)$$);
+SELECT is(abacus_region_at('field', 4.4, 4.3), 'pond', 'another one is');
 SELECT pg_temp.is_right('after another has come');
 ALTER TABLE field RENAME TO heath;
 SELECT is((SELECT count(*) FROM field_cells WHERE region = 'pond'), (SELECT triangles FROM abacus_regions('heath') WHERE region = 'pond'), 'when the mesh has another name');
@@ -115,8 +126,11 @@ SELECT is(md5(abacus_draw('green', 60, regions => true)::text), (SELECT hash FRO
 GRANT SELECT ON green, park_vertices TO region_reader;
 SET ROLE region_reader;
 SELECT lives_ok($$SELECT abacus_draw('green', 60, regions => true, lines => true)$$, 'pictures need no right to read the tables of lines and regions');
--- vector tiles have names of regions, so they do
-SELECT throws_ok($$SELECT abacus_tile_vector('green', 0, 0, 0, world => '{0,0,40}')$$, '42501', 'permission denied for table park_regions');
+-- vector tiles have names of regions for those who may read them
+SELECT is(position('lawn'::bytea IN abacus_tile_vector('green', 0, 0, 0, world => '{0,0,40}')), 0, 'a vector tile without names');
+SELECT isnt(position('soft'::bytea IN abacus_tile_vector('green', 0, 0, 0, world => '{0,0,40}')), 0, 'but with fixed edges');
+SELECT throws_ok($$SELECT abacus_region_at('green', 20, 20)$$, '42501', 'permission denied for table park_regions');
+SELECT is(abacus_region_at('green', 1, 1), NULL, 'nothing is read where no region is');
 RESET ROLE;
 GRANT SELECT ON park_regions TO region_reader;
 SET ROLE region_reader;

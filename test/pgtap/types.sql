@@ -165,6 +165,7 @@ INSERT INTO wanted VALUES
     ('abacus_raster_rows', 'internal', 'internal', 'v', true, 'u'),
     ('abacus_region', 'mesh regclass, query text', 'bigint', 'v', true, 'u'),
     ('abacus_unregion', 'mesh regclass, region text', 'void', 'v', true, 'u'),
+    ('abacus_region_at', 'mesh regclass, x double precision, y double precision', 'text', 's', true, 's'),
     ('abacus_regions', 'mesh regclass, OUT region text, OUT number integer, OUT triangles bigint, OUT area double precision, OUT edges bigint', 'SETOF record', 's', true, 's'),
     ('abacus_simplices', 'mesh regclass, within text', 'SETOF abacus_simplex', 's', true, 's'),
     ('abacus_version', '', 'text', 's', false, 's');

@@ -67,9 +67,9 @@ find(const char *query, MeshAccess access, Oid type, Datum argument, Datum *valu
 	return true;
 }
 
-/* The name of a region with a number, which is in the caller's memory; for messages. */
-char *
-regions_table_region(Relation mesh, MeshAccess access, uint32 number)
+/* The name of a region with a number, which is in the caller's memory; NULL if there is none. */
+static char *
+find_region(Relation mesh, MeshAccess access, uint32 number)
 {
 	char	   *table = regions_table_require(mesh, access);
 	char	   *name = NULL;
@@ -81,7 +81,37 @@ regions_table_region(Relation mesh, MeshAccess access, uint32 number)
 			 access, INT4OID, Int32GetDatum((int32) number), &region))
 		name = MemoryContextStrdup(caller, TextDatumGetCString(region));
 	SPI_finish();
+	return name;
+}
+
+/* The same for messages. */
+char *
+regions_table_region(Relation mesh, MeshAccess access, uint32 number)
+{
+	char	   *name = find_region(mesh, access, number);
+
 	return name != NULL ? name : psprintf("number %u", number);
+}
+
+static void
+complain_of_no_name(Oid mesh, uint32 number)
+{
+	ereport(ERROR,
+			(errcode(ERRCODE_DATA_CORRUPTED),
+			 errmsg("mesh \"%s\" has triangles of region number %u, which has no name",
+					get_rel_name(mesh), number),
+			 errhint("Find all faults with abacus_check().")));
+}
+
+/* The name of the region that triangles with a number are in. */
+char *
+regions_table_name(Relation mesh, MeshAccess access, uint32 number)
+{
+	char	   *name = find_region(mesh, access, number);
+
+	if (name == NULL)
+		complain_of_no_name(RelationGetRelid(mesh), number);
+	return name;
 }
 
 /* The number of the region with a name; an error if there is none. */
@@ -213,10 +243,6 @@ region_names_find(const RegionNames *names, uint32 number)
 		return NULL;
 	name = names->names == NULL ? NULL : hash_search(names->names, &number, HASH_FIND, NULL);
 	if (name == NULL)
-		ereport(ERROR,
-				(errcode(ERRCODE_DATA_CORRUPTED),
-				 errmsg("mesh \"%s\" has triangles of region number %u, which has no name",
-						get_rel_name(names->mesh), number),
-				 errhint("Find all faults with abacus_check().")));
+		complain_of_no_name(names->mesh, number);
 	return name->name;
 }

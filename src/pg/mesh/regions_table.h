@@ -13,6 +13,7 @@ typedef struct RegionNames RegionNames;
 extern Oid	regions_table_make(Relation mesh);
 extern char *regions_table_require(Relation mesh, MeshAccess access);
 extern char *regions_table_region(Relation mesh, MeshAccess access, uint32 number);
+extern char *regions_table_name(Relation mesh, MeshAccess access, uint32 number);
 extern uint32 regions_table_number(Relation mesh, MeshAccess access, const char *region);
 extern void regions_table_refuse_lines(Relation mesh, const char *ids);
 extern bool region_names_may_read(Oid mesh, Oid user);

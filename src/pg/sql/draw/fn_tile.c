@@ -7,7 +7,9 @@
 #include <math.h>
 
 #include "mb/pg_wchar.h"
+#include "miscadmin.h"
 #include "utils/builtins.h"
+#include "utils/lsyscache.h"
 
 #include "abacus/tile.h"
 #include "pg/base/settings.h"
@@ -222,6 +224,24 @@ typedef struct TileNames
 	RegionNames *regions;
 } TileNames;
 
+/*
+ * Reads them; NULL if there are none. Who may read the mesh gets its tiles, but without names that he may
+ * not read.
+ */
+static RegionNames *
+read_names(Oid mesh, const abacus_facts *facts)
+{
+	if (facts->census.regions == 0)
+		return NULL;
+	if (region_names_may_read(mesh, GetUserId()))
+		return region_names_read(mesh, facts);
+	ereport(NOTICE,
+			(errmsg("triangles have no names of regions, which user \"%s\" may not read",
+					GetUserNameFromId(GetUserId(), false)),
+			 errhint("Grant SELECT on the table of regions of mesh \"%s\".", get_rel_name(mesh))));
+	return NULL;
+}
+
 /* Called by the core. */
 static abacus_host_status
 find_name(void *context, uint32_t region, const char **name)
@@ -261,9 +281,9 @@ abacus_sql_tile_vector(PG_FUNCTION_ARGS)
 	extent_arguments(fcinfo, VECTOR_MAX_EDGE, VECTOR_WITHIN, PG_GETARG_OID(TILE_MESH), &reader->header,
 					 &kind.extent);
 	names.host = host;
-	names.regions = region_names_read(PG_GETARG_OID(TILE_MESH), &reader->header.facts);
+	names.regions = read_names(PG_GETARG_OID(TILE_MESH), &reader->header.facts);
 	host_run(host, abacus_tile_vector, &host->table, &reader->header.facts, &tile, &kind,
-			 reader->header.facts.census.regions > 0 ? &by_number : NULL, &memory, &bytes);
+			 names.regions == NULL ? NULL : &by_number, &memory, &bytes);
 	PG_RETURN_BYTEA_P(drawing_finish(host, &bytes));
 }
 
