@@ -47,6 +47,7 @@ CORE.draw += src/draw/captions.cpp
 CORE.draw += src/draw/develop.cpp
 CORE.draw += src/draw/frame.cpp
 CORE.draw += src/draw/letters.cpp
+CORE.draw += src/draw/overlay.cpp
 CORE.draw += src/draw/palette.cpp
 CORE.draw += src/draw/picture.cpp
 CORE.draw += src/draw/plane.cpp
@@ -178,6 +179,7 @@ CORE.query_whole += src/query/volume/volume.cpp
 CORE.query_whole += src/query/pictures/portrait.cpp
 CORE.query_whole += src/query/pictures/ray_portrait.cpp
 
+CORE.tiles += src/tiles/fixed_lines.cpp
 CORE.tiles += src/tiles/picture_tile.cpp
 CORE.tiles += src/tiles/terrain_tile.cpp
 CORE.tiles += src/tiles/tile_lines.cpp

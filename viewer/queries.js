@@ -52,6 +52,11 @@ export const plane = {
     etag: "SELECT abacus_tile_etag($1::oid::regclass) AS etag",
     located: located(2),
     cells: `SELECT ${corners} FROM abacus_cells($1::oid::regclass, ARRAY[$2, $3]::float8[], ARRAY[$2, $3]::float8[])`,
+    /** The same with the region at the place. */
+    cellsOfRegions: `SELECT ${corners}, abacus_region_at($1::oid::regclass, $2::float8, $3::float8) AS region
+        FROM abacus_cells($1::oid::regclass, ARRAY[$2, $3]::float8[], ARRAY[$2, $3]::float8[])`,
+    region: "SELECT abacus_region_at($1::oid::regclass, $2::float8, $3::float8) AS region",
+    regions: "SELECT region, number, triangles, area FROM abacus_regions($1::oid::regclass) LIMIT $2",
     values: values(2),
     nearest: `SELECT vertex, x, y, attributes, distance FROM abacus_nearest($1::oid::regclass, $2::float8, $3::float8, 1)`,
     profile: `SELECT distance, x, y, value FROM abacus_profile($1::oid::regclass, $2::float8[], $3::text) LIMIT $4`,
@@ -60,12 +65,12 @@ export const plane = {
             attribute => $6::text, observer_height => $7::float8, target_height => $8::float8)`,
     hull: `
         SELECT ring, x, y, CASE WHEN $2::text IS NOT NULL THEN abacus_interpolate($1::oid::regclass, x, y, $2::text) END AS value
-        FROM abacus_hull($1::oid::regclass) ORDER BY ring, position LIMIT $3`,
+        FROM abacus_hull($1::oid::regclass, within => $4::text) ORDER BY ring, position LIMIT $3`,
     lines: `SELECT line, part, kind, x, y FROM abacus_lines($1::oid::regclass) ORDER BY line, position LIMIT $2`,
     picture: `SELECT abacus_tile_picture($1::oid::regclass, $2, $3, $4, $5, $6::float8[], attribute => $7, range => $8::float8[],
-        ramp => $9, contours => $10, exaggeration => $11, edges => $12, size => $13) AS tile`,
-    vector: "SELECT abacus_tile_vector($1::oid::regclass, $2, $3, $4, $5, $6::float8[], attribute => $7, contours => $8) AS tile",
-    terrain: "SELECT abacus_tile_terrain($1::oid::regclass, $2, $3, $4, $5, $6::float8[], attribute => $7, fill => $8) AS tile",
+        ramp => $9, contours => $10, exaggeration => $11, edges => $12, size => $13, within => $14, regions => $15) AS tile`,
+    vector: "SELECT abacus_tile_vector($1::oid::regclass, $2, $3, $4, $5, $6::float8[], attribute => $7, contours => $8, within => $9) AS tile",
+    terrain: "SELECT abacus_tile_terrain($1::oid::regclass, $2, $3, $4, $5, $6::float8[], attribute => $7, fill => $8, within => $9) AS tile",
 };
 
 export const space = {

@@ -22,6 +22,11 @@ export class Parameters {
         if (text === null || !/^[-+0-9.eE]+$/.test(text) || !Number.isFinite(value)) throw wrong(`${name} must be a number`);
         return value;
     }
+    flag(name) {
+        const text = this.text(name) ?? "no";
+        if (text !== "yes" && text !== "no") throw wrong(`${name} must be yes or no`);
+        return text === "yes";
+    }
     numbers(name, least, most) {
         const parts = (this.text(name) ?? "").split(",");
         if (parts.length < least || parts.length > most) throw wrong(`${name} must have ${least === most ? least : `${least} to ${most}`} numbers`);
@@ -59,15 +64,20 @@ const at = (p, dimension) => ["x", "y", "z"].slice(0, dimension).map((axis) => p
 const attributeOf = (p, mesh) => p.text("attribute") ?? mesh.attributes[0]?.name ?? null;
 
 export const planeReads = {
-    locate: (p, query, mesh) => locate(query, mesh, plane, at(p, 2), attributeOf(p, mesh)),
-    star: (p, query) => query(plane.cells, at(p, 2)),
+    locate: async (p, query, mesh) => {
+        const isOfRegions = p.flag("regions"), place = at(p, 2), answer = await locate(query, mesh, plane, place, attributeOf(p, mesh));
+        return isOfRegions ? { ...answer, ...(await query(plane.region, place))[0] } : answer;
+    },
+    star: (p, query) => query(p.flag("regions") ? plane.cellsOfRegions : plane.cells, at(p, 2)),
     profile: async (p, query, mesh) => {
         const path = p.numbers("path", 4, 2 * mostPathPlaces);
         if (path.length % 2) throw wrong("path must have an x and a y for each place");
         return bounded(query, { text: plane.profile, values: [path, attributeOf(p, mesh)] });
     },
     /** The rings of the border with the attribute; null if they have very many places. */
-    hull: async (p, query, mesh) => atMost(await query(plane.hull, [attributeOf(p, mesh), mostOfHull + 1])),
+    hull: async (p, query, mesh) => atMost(await query(plane.hull, [attributeOf(p, mesh), mostOfHull + 1, p.text("within")])),
+    /** The regions of the mesh. */
+    regions: (p, query) => bounded(query, { text: plane.regions, values: [] }),
     /** The lines that are fixed edges of the mesh, as they were given. */
     lines: (p, query) => bounded(query, { text: plane.lines, values: [] }),
     sight: async (p, query, mesh) =>
@@ -96,12 +106,13 @@ export function tile(kind, z, x, y, p, mesh) {
     const values = [...place, mesh.srid, mesh.world, attribute];
     const found = mesh.attributes.find((one) => one.name === attribute);
     const contours = attribute === null ? null : p.number("contours", 0) || null;
-    if (kind === "terrain") return { text: plane.terrain, values: [...values, p.text("outside") === "none" ? noData : found?.least ?? 0] };
-    if (kind === "vector") return { text: plane.vector, values: [...values, contours] };
+    const within = p.text("within");
+    if (kind === "terrain") return { text: plane.terrain, values: [...values, p.text("outside") === "none" ? noData : found?.least ?? 0, within] };
+    if (kind === "vector") return { text: plane.vector, values: [...values, contours, within] };
     const low = p.number("low", found?.least ?? null), high = p.number("high", found?.greatest ?? null);
     const range = low === null ? null : [low, high > low ? high : low + 1];
     return { text: plane.picture, values: [...values, range, attribute === null ? null : p.text("ramp"), contours,
-        attribute === null ? 0 : p.number("exaggeration", 0), p.text("edges") !== "no", p.number("size", 256)] };
+        attribute === null ? 0 : p.number("exaggeration", 0), p.text("edges") !== "no", p.number("size", 256), within, p.flag("regions")] };
 }
 
 // ---- Changes ------------------------------------------------------------------------------------

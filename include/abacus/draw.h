@@ -48,6 +48,8 @@ typedef struct abacus_drawing
 	const char *scale_bar;     /* scale bar in this unit of coordinates, in UTF-8; NULL = none */
 	int32_t is_geographic;     /* 1: coordinates are longitude and latitude in degrees, and the
 	                              window is of Web Mercator, measured in degrees of longitude */
+	int32_t regions;           /* 1: tint each region of a mesh in a colour of its own, with its border */
+	int32_t lines;             /* 1: draw the fixed edges of a mesh */
 	double density;            /* without an attribute: triangles per pixel shown as medium
 	                              density; 0 = chosen to fit */
 } abacus_drawing;

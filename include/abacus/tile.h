@@ -61,14 +61,22 @@ typedef struct abacus_tile_vector_kind
 	abacus_extent extent;    /* leave out triangles outside of it */
 } abacus_tile_vector_kind;
 
+/* Gets the name of a region in UTF-8, which the caller keeps until the tile is made. */
+typedef struct abacus_region_names
+{
+	abacus_host_status (*name)(void *context, uint32_t region, const char **name);
+	void *context;
+} abacus_region_names;
+
 /*
- * A Mapbox vector tile; `picture` gets its bytes. Its layers are triangles, vertices, contours and
+ * A Mapbox vector tile; `picture` gets its bytes. Its layers are triangles, vertices, contours, fixed and
  * hull. For a tile with many triangles it has no triangles and vertices, and contours between
- * samples.
+ * samples. Triangles in a region have its name, unless `names` is NULL.
  */
 ABACUS_API abacus_status abacus_tile_vector(const abacus_host *host, const abacus_facts *facts,
 											const abacus_tile *tile,
 											const abacus_tile_vector_kind *kind,
+											const abacus_region_names *names,
 											const abacus_tile_memory *memory,
 											abacus_picture *picture, abacus_error *error);
 

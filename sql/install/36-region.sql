@@ -24,6 +24,13 @@ LANGUAGE C VOLATILE STRICT PARALLEL UNSAFE;
 COMMENT ON FUNCTION abacus_unregion(regclass, text) IS
     'removes a region from a mesh. Its triangles and lines stay. Errors: 42704 no such region, 55000 a mesh in space, whose lines wait, or that cannot be changed';
 
+CREATE FUNCTION abacus_region_at(mesh regclass, x double precision, y double precision)
+RETURNS text
+AS 'MODULE_PATHNAME', 'abacus_sql_region_at'
+LANGUAGE C STABLE STRICT PARALLEL SAFE COST 100;
+COMMENT ON FUNCTION abacus_region_at(regclass, double precision, double precision) IS
+    'the region that has the triangle which abacus_locate() finds at a place; NULL outside of all regions, and outside of the mesh. Units: x and y in those of the coordinates. Errors: 42809 not a mesh, 22023 NaN, a mesh in space, 42501 no privilege on the table of regions';
+
 CREATE FUNCTION abacus_regions(
     mesh regclass,
     OUT region text,

@@ -10,14 +10,14 @@ RETURNS SETOF abacus_simplex
 AS 'MODULE_PATHNAME', 'abacus_sql_simplices_in_box'
 LANGUAGE C STABLE PARALLEL SAFE COST 10000 ROWS 1000 SUPPORT abacus_window_rows;
 COMMENT ON FUNCTION abacus_simplices(regclass, double precision[], double precision[], text) IS
-    'the simplices that meet a window, from its least to its greatest corner. within names a region of the mesh; all else is as outside of the mesh. Shapes: lower and upper are {x, y}, in space {x, y, z}. Units: lower and upper in those of the coordinates. Errors: 22023 a bad window or max_edge, 2202E an array of another length than the dimension; 42704 no such region';
+    'the simplices that meet a window, from its least to its greatest corner. within is the name of a region of the mesh, or a polygon as WKT, EWKT or hexadecimal EWKB; all else is as outside of the mesh. Shapes: lower and upper are {x, y}, in space {x, y, z}. Units: lower and upper in those of the coordinates. Errors: 22023 a bad window or max_edge, 2202E an array of another length than the dimension; 42704 no such region';
 
 CREATE FUNCTION abacus_simplices(mesh regclass, center double precision[], radius double precision, within text DEFAULT NULL)
 RETURNS SETOF abacus_simplex
 AS 'MODULE_PATHNAME', 'abacus_sql_simplices_in_ball'
 LANGUAGE C STABLE PARALLEL SAFE COST 10000 ROWS 1000 SUPPORT abacus_window_rows;
 COMMENT ON FUNCTION abacus_simplices(regclass, double precision[], double precision, text) IS
-    'the simplices that meet a ball. within names a region of the mesh; all else is as outside of the mesh. Shapes: center is {x, y}, in space {x, y, z}. Units: center and radius in those of the coordinates. Errors: 22023 a bad window or max_edge, 2202E an array of another length than the dimension, 22004 a NULL center or radius; 42704 no such region';
+    'the simplices that meet a ball. within is the name of a region of the mesh, or a polygon as WKT, EWKT or hexadecimal EWKB; all else is as outside of the mesh. Shapes: center is {x, y}, in space {x, y, z}. Units: center and radius in those of the coordinates. Errors: 22023 a bad window or max_edge, 2202E an array of another length than the dimension, 22004 a NULL center or radius; 42704 no such region';
 
 CREATE FUNCTION abacus_simplices(mesh regclass, within text)
 RETURNS SETOF abacus_simplex
@@ -55,7 +55,7 @@ RETURNS SETOF record
 AS 'MODULE_PATHNAME', 'abacus_sql_cells'
 LANGUAGE C STABLE PARALLEL SAFE COST 10000 ROWS 1000 SUPPORT abacus_window_rows;
 COMMENT ON FUNCTION abacus_cells(regclass, double precision[], double precision[], double precision, text, double precision[], text) IS
-    'the simplices of a mesh or of a window, with the coordinates and attributes of their corners, and their labels. With label and range, those whose label is in the range. within names a region of the mesh; all else is as outside of the mesh. Shapes: lower and upper are {x, y}, in space {x, y, z}; corners[i][axis] and "values"[i][attribute] of corner i, from 1; range is {least, greatest}; labels as abacus_labels names them. Units: lower, upper, corners and max_edge in those of the coordinates. Errors: 22023 a bad window or max_edge, 2202E an array of another length than the dimension; 42703 no such label, 22023 a range that descends; 42704 no such region';
+    'the simplices of a mesh or of a window, with the coordinates and attributes of their corners, and their labels. With label and range, those whose label is in the range. within is the name of a region of the mesh, or a polygon as WKT, EWKT or hexadecimal EWKB; all else is as outside of the mesh. Shapes: lower and upper are {x, y}, in space {x, y, z}; corners[i][axis] and "values"[i][attribute] of corner i, from 1; range is {least, greatest}; labels as abacus_labels names them. Units: lower, upper, corners and max_edge in those of the coordinates. Errors: 22023 a bad window or max_edge, 2202E an array of another length than the dimension; 42703 no such label, 22023 a range that descends; 42704 no such region';
 
 CREATE FUNCTION abacus_cells(
     mesh regclass,
@@ -77,7 +77,7 @@ RETURNS SETOF record
 AS 'MODULE_PATHNAME', 'abacus_sql_cells_in_ball'
 LANGUAGE C STABLE PARALLEL SAFE COST 10000 ROWS 1000 SUPPORT abacus_window_rows;
 COMMENT ON FUNCTION abacus_cells(regclass, double precision[], double precision, double precision, text, double precision[], text) IS
-    'the simplices that meet a ball, with the coordinates and attributes of their corners, and their labels. With label and range, those whose label is in the range. within names a region of the mesh; all else is as outside of the mesh. Shapes: center is {x, y}, in space {x, y, z}; corners[i][axis] and "values"[i][attribute] of corner i, from 1; range is {least, greatest}; labels as abacus_labels names them. Units: center, radius, corners and max_edge in those of the coordinates. Errors: 22023 a bad window or max_edge, 2202E an array of another length than the dimension; 42703 no such label, 22023 a range that descends, 22004 a NULL center or radius; 42704 no such region';
+    'the simplices that meet a ball, with the coordinates and attributes of their corners, and their labels. With label and range, those whose label is in the range. within is the name of a region of the mesh, or a polygon as WKT, EWKT or hexadecimal EWKB; all else is as outside of the mesh. Shapes: center is {x, y}, in space {x, y, z}; corners[i][axis] and "values"[i][attribute] of corner i, from 1; range is {least, greatest}; labels as abacus_labels names them. Units: center, radius, corners and max_edge in those of the coordinates. Errors: 22023 a bad window or max_edge, 2202E an array of another length than the dimension; 42703 no such label, 22023 a range that descends, 22004 a NULL center or radius; 42704 no such region';
 
 CREATE FUNCTION abacus_cells(
     mesh regclass,
@@ -228,7 +228,7 @@ RETURNS SETOF record
 AS 'MODULE_PATHNAME', 'abacus_sql_edges'
 LANGUAGE C STABLE PARALLEL SAFE COST 10000 ROWS 1000 SUPPORT abacus_window_rows;
 COMMENT ON FUNCTION abacus_edges(regclass, double precision[], double precision[], double precision, boolean, text) IS
-    'the edges of a mesh, or those that meet a window, each once. With fixed, only fixed edges, with the lines that they are on; their kind is hard if one of these is. within names a region of the mesh; all else is as outside of the mesh. Shapes: lower and upper are {x, y}, in space {x, y, z}. Units: lower, upper, max_edge and length in those of the coordinates. Errors: 22023 a bad window or max_edge, 2202E an array of another length than the dimension; 42704 no such region';
+    'the edges of a mesh, or those that meet a window, each once. With fixed, only fixed edges, with the lines that they are on; their kind is hard if one of these is. within is the name of a region of the mesh, or a polygon as WKT, EWKT or hexadecimal EWKB; all else is as outside of the mesh. Shapes: lower and upper are {x, y}, in space {x, y, z}. Units: lower, upper, max_edge and length in those of the coordinates. Errors: 22023 a bad window or max_edge, 2202E an array of another length than the dimension; 42704 no such region';
 
 CREATE FUNCTION abacus_edges(
     mesh regclass,
@@ -246,7 +246,7 @@ RETURNS SETOF record
 AS 'MODULE_PATHNAME', 'abacus_sql_edges_in_ball'
 LANGUAGE C STABLE PARALLEL SAFE COST 10000 ROWS 1000 SUPPORT abacus_window_rows;
 COMMENT ON FUNCTION abacus_edges(regclass, double precision[], double precision, double precision, boolean, text) IS
-    'the edges that meet a ball, each once. With fixed, only fixed edges, with the lines that they are on; their kind is hard if one of these is. within names a region of the mesh; all else is as outside of the mesh. Shapes: center is {x, y}, in space {x, y, z}. Units: center, radius, max_edge and length in those of the coordinates. Errors: 22023 a bad window or max_edge, 2202E an array of another length than the dimension, 22004 a NULL center or radius; 42704 no such region';
+    'the edges that meet a ball, each once. With fixed, only fixed edges, with the lines that they are on; their kind is hard if one of these is. within is the name of a region of the mesh, or a polygon as WKT, EWKT or hexadecimal EWKB; all else is as outside of the mesh. Shapes: center is {x, y}, in space {x, y, z}. Units: center, radius, max_edge and length in those of the coordinates. Errors: 22023 a bad window or max_edge, 2202E an array of another length than the dimension, 22004 a NULL center or radius; 42704 no such region';
 
 CREATE FUNCTION abacus_edges(
     mesh regclass,

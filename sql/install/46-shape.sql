@@ -44,7 +44,7 @@ RETURNS SETOF record
 AS 'MODULE_PATHNAME', 'abacus_sql_hull'
 LANGUAGE C STABLE PARALLEL SAFE COST 100000 ROWS 1000;
 COMMENT ON FUNCTION abacus_hull(regclass, double precision, text) IS
-    'the border of a mesh, or of its simplices without longer edges. Rings of vertices, in space triangles. within names a region of the mesh; all else is as outside of the mesh. Units: max_edge and places in those of the coordinates. Errors: 22023 a bad max_edge, 53400 no room for temporary files; 42704 no such region';
+    'the border of a mesh, or of its simplices without longer edges. Rings of vertices, in space triangles. within is the name of a region of the mesh, or a polygon as WKT, EWKT or hexadecimal EWKB; all else is as outside of the mesh. Units: max_edge and places in those of the coordinates. Errors: 22023 a bad max_edge, 53400 no room for temporary files; 42704 no such region';
 
 CREATE FUNCTION abacus_alpha_shape(
     mesh regclass,

@@ -40,7 +40,7 @@ RETURNS regclass[]
 AS 'MODULE_PATHNAME', 'abacus_sql_publish'
 LANGUAGE C VOLATILE PARALLEL UNSAFE;
 COMMENT ON FUNCTION abacus_publish(regclass, text, text, text, boolean, integer, text, text, text) IS
-    'makes foreign tables of the cells and the points of a mesh, and in the plane views of its fixed edges and its lines. They are <mesh>_cells, <mesh>_points, <mesh>_fixed_edges and <mesh>_breaklines unless other names are given. Where PostGIS is installed they have geometries, with the attribute z as Z. Columns of attributes that are dropped later cannot be read any more. Views with these names that show the mesh stay as they are. Returns the tables and views. Shapes: an array of the two tables, in the plane of the two views as well. Errors: 42809 not a mesh, 42703 no such attribute, 55000 geometry without PostGIS, 22023 another srid than the mesh has, or z of a mesh in space, 42P07 a table of that name';
+    'makes foreign tables of the cells and the points of a mesh, and in the plane views of its fixed edges and its lines. They are <mesh>_cells, <mesh>_points, <mesh>_fixed_edges and <mesh>_breaklines unless other names are given. Cells of a mesh with regions have the name of theirs. Where PostGIS is installed they have geometries, with the attribute z as Z. Columns of attributes that are dropped later cannot be read any more. Views with these names that show the mesh stay as they are. Returns the tables and views. Shapes: an array of the two tables, in the plane of the two views as well. Errors: 42809 not a mesh, 42703 no such attribute, 55000 geometry without PostGIS, 22023 another srid than the mesh has, or z of a mesh in space, 42P07 a table of that name';
 
 CREATE FUNCTION abacus_unpublish(mesh regclass)
 RETURNS integer

@@ -42,7 +42,7 @@ RETURNS double precision
 AS 'MODULE_PATHNAME', 'abacus_sql_interpolate_geometry'
 LANGUAGE C STABLE PARALLEL SAFE COST 500;
 COMMENT ON FUNCTION abacus_interpolate(regclass, geometry, text, text, text, double precision, text) IS
-    'the value of an attribute at a point. The method is linear, natural or nearest. NULL outside the mesh, unless outside is nearest, and where a value is missing. within names a region of the mesh; all else is as outside of the mesh. Units: max_edge in those of the coordinates, the value in those of the attribute. Errors: 22023 another SRID, no point, or one without z in space; 42703 no such attribute, 42702 none named where the mesh has several, 55000 none at all; 42704 no such region';
+    'the value of an attribute at a point. The method is linear, natural or nearest. NULL outside the mesh, unless outside is nearest, and where a value is missing. within is the name of a region of the mesh, or a polygon as WKT, EWKT or hexadecimal EWKB; all else is as outside of the mesh. Units: max_edge in those of the coordinates, the value in those of the attribute. Errors: 22023 another SRID, no point, or one without z in space; 42703 no such attribute, 42702 none named where the mesh has several, 55000 none at all; 42704 no such region';
 
 CREATE FUNCTION abacus_weights(
     mesh regclass,
@@ -57,7 +57,7 @@ RETURNS SETOF record
 AS 'MODULE_PATHNAME', 'abacus_sql_weights_geometry'
 LANGUAGE C STABLE PARALLEL SAFE COST 500 ROWS 3;
 COMMENT ON FUNCTION abacus_weights(regclass, geometry, text, text, double precision, text) IS
-    'the vertices that the value at a point comes from, and their weights. The weights sum to 1. within names a region of the mesh; all else is as outside of the mesh. Units: max_edge in those of the coordinates, weights are shares of 1. Errors: 22023 another SRID, no point, or one without z in space; 42704 no such region';
+    'the vertices that the value at a point comes from, and their weights. The weights sum to 1. within is the name of a region of the mesh, or a polygon as WKT, EWKT or hexadecimal EWKB; all else is as outside of the mesh. Units: max_edge in those of the coordinates, weights are shares of 1. Errors: 22023 another SRID, no point, or one without z in space; 42704 no such region';
 
 CREATE FUNCTION abacus_gradient(
     mesh regclass,
@@ -69,7 +69,7 @@ RETURNS double precision[]
 AS 'MODULE_PATHNAME', 'abacus_sql_gradient_geometry'
 LANGUAGE C STABLE PARALLEL SAFE COST 500;
 COMMENT ON FUNCTION abacus_gradient(regclass, geometry, text, double precision, text) IS
-    'the derivatives of an attribute in the simplex around a point. NULL outside the mesh and where a value is missing. within names a region of the mesh; all else is as outside of the mesh. Shapes: a derivative for each axis. Units: max_edge in those of the coordinates, derivatives in those of the attribute by those of the coordinates. Errors: 22023 another SRID, no point, or one without z in space; 42703 no such attribute, 42702 none named where the mesh has several, 55000 none at all; 42704 no such region';
+    'the derivatives of an attribute in the simplex around a point. NULL outside the mesh and where a value is missing. within is the name of a region of the mesh, or a polygon as WKT, EWKT or hexadecimal EWKB; all else is as outside of the mesh. Shapes: a derivative for each axis. Units: max_edge in those of the coordinates, derivatives in those of the attribute by those of the coordinates. Errors: 22023 another SRID, no point, or one without z in space; 42703 no such attribute, 42702 none named where the mesh has several, 55000 none at all; 42704 no such region';
 
 CREATE FUNCTION abacus_slope(
     mesh regclass,
@@ -83,7 +83,7 @@ RETURNS record
 AS 'MODULE_PATHNAME', 'abacus_sql_slope_geometry'
 LANGUAGE C STABLE PARALLEL SAFE COST 500;
 COMMENT ON FUNCTION abacus_slope(regclass, geometry, text, double precision, text) IS
-    'how steep an attribute is around a point, and which way it goes down. aspect is clockwise from north, and NULL where it is level. within names a region of the mesh; all else is as outside of the mesh. Units: max_edge in those of the coordinates, slope and aspect in degrees. Errors: 22023 another SRID or no point; 42703 no such attribute, 42702 none named where the mesh has several, 55000 none at all; 42704 no such region';
+    'how steep an attribute is around a point, and which way it goes down. aspect is clockwise from north, and NULL where it is level. within is the name of a region of the mesh, or a polygon as WKT, EWKT or hexadecimal EWKB; all else is as outside of the mesh. Units: max_edge in those of the coordinates, slope and aspect in degrees. Errors: 22023 another SRID or no point; 42703 no such attribute, 42702 none named where the mesh has several, 55000 none at all; 42704 no such region';
 
 CREATE FUNCTION abacus_visible(
     mesh regclass,
@@ -102,7 +102,7 @@ RETURNS record
 AS 'MODULE_PATHNAME', 'abacus_sql_visible_geometry'
 LANGUAGE C STABLE PARALLEL SAFE COST 10000;
 COMMENT ON FUNCTION abacus_visible(regclass, geometry, geometry, text, double precision, double precision, double precision, text) IS
-    'whether a target is seen from an observer over a terrain. If not, x, y and z are the first place that blocks the sight. Both stand on the ground, or above it. within names a region of the mesh; all else is as outside of the mesh. Units: places and max_edge in those of the coordinates, heights in those of the attribute. Errors: 22023 another SRID or no point; 42703 no such attribute, 42702 none named where the mesh has several, 55000 none at all; 42704 no such region';
+    'whether a target is seen from an observer over a terrain. If not, x, y and z are the first place that blocks the sight. Both stand on the ground, or above it. within is the name of a region of the mesh, or a polygon as WKT, EWKT or hexadecimal EWKB; all else is as outside of the mesh. Units: places and max_edge in those of the coordinates, heights in those of the attribute. Errors: 22023 another SRID or no point; 42703 no such attribute, 42702 none named where the mesh has several, 55000 none at all; 42704 no such region';
 
 -- Of two texts in quotes PostgreSQL could not tell whether they are arrays or geometries. They are arrays.
 CREATE FUNCTION abacus_visible(

@@ -22,7 +22,7 @@ BEGIN ATOMIC
     WHERE ST_IsEmpty(bounds) IS NOT TRUE;
 END;
 COMMENT ON FUNCTION abacus_cells_geom(regclass, geometry, text, double precision, text) IS
-    'the simplices of a mesh, or those that meet the box around a geometry. Triangles are polygons, with an attribute as z; tetrahedra are closed surfaces. within names a region of the mesh; all else is as outside of the mesh. Shapes: "values"[i][attribute] of corner i, from 1. Units: max_edge in those of the coordinates. Errors: 22023 another SRID; 42703 no such attribute; 42704 no such region';
+    'the simplices of a mesh, or those that meet the box around a geometry. Triangles are polygons, with an attribute as z; tetrahedra are closed surfaces. within is the name of a region of the mesh, or a polygon as WKT, EWKT or hexadecimal EWKB; all else is as outside of the mesh. Shapes: "values"[i][attribute] of corner i, from 1. Units: max_edge in those of the coordinates. Errors: 22023 another SRID; 42703 no such attribute; 42704 no such region';
 
 CREATE FUNCTION abacus_vertices_geom(
     mesh regclass,
@@ -63,7 +63,7 @@ BEGIN ATOMIC
     WHERE ST_IsEmpty(bounds) IS NOT TRUE;
 END;
 COMMENT ON FUNCTION abacus_edges_geom(regclass, geometry, double precision, text) IS
-    'the edges of a mesh, or those that meet the box around a geometry, each once. within names a region of the mesh; all else is as outside of the mesh. Units: max_edge and length in those of the coordinates. Errors: 22023 another SRID or a bad max_edge; 42704 no such region';
+    'the edges of a mesh, or those that meet the box around a geometry, each once. within is the name of a region of the mesh, or a polygon as WKT, EWKT or hexadecimal EWKB; all else is as outside of the mesh. Units: max_edge and length in those of the coordinates. Errors: 22023 another SRID or a bad max_edge; 42704 no such region';
 
 CREATE FUNCTION abacus_contours_geom(
     mesh regclass,
@@ -95,7 +95,7 @@ BEGIN ATOMIC
     GROUP BY c.id;
 END;
 COMMENT ON FUNCTION abacus_contours_geom(regclass, double precision, double precision, double precision[], boolean, text, geometry, double precision, text) IS
-    'the contours of an attribute in a mesh in the plane, or in the box around a geometry, as whole lines. With polygonize, the bands between levels, a multipolygon each. within names a region of the mesh; all else is as outside of the mesh. Shapes: fixed_levels is an array of levels. Units: levels in those of the attribute, max_edge in those of the coordinates. Errors: those of abacus_contours; 22023 another SRID; 42704 no such region';
+    'the contours of an attribute in a mesh in the plane, or in the box around a geometry, as whole lines. With polygonize, the bands between levels, a multipolygon each. within is the name of a region of the mesh, or a polygon as WKT, EWKT or hexadecimal EWKB; all else is as outside of the mesh. Shapes: fixed_levels is an array of levels. Units: levels in those of the attribute, max_edge in those of the coordinates. Errors: those of abacus_contours; 22023 another SRID; 42704 no such region';
 
 CREATE FUNCTION abacus_profile_geom(
     mesh regclass,
@@ -113,7 +113,7 @@ BEGIN ATOMIC
     FROM _abacus_facts(mesh, NULL) AS f, abacus_profile(mesh, _abacus_path(mesh, line), attribute, max_edge, within) AS p;
 END;
 COMMENT ON FUNCTION abacus_profile_geom(regclass, geometry, text, double precision, text) IS
-    'an attribute along a line. A row stands at each corner of the line and wherever it crosses an edge, in space a facet; value is NULL where the line leaves or enters the mesh. within names a region of the mesh; all else is as outside of the mesh. Units: distance and max_edge in those of the coordinates, value in those of the attribute. Errors: those of abacus_profile; 22023 another SRID or no line; 42704 no such region';
+    'an attribute along a line. A row stands at each corner of the line and wherever it crosses an edge, in space a facet; value is NULL where the line leaves or enters the mesh. within is the name of a region of the mesh, or a polygon as WKT, EWKT or hexadecimal EWKB; all else is as outside of the mesh. Units: distance and max_edge in those of the coordinates, value in those of the attribute. Errors: those of abacus_profile; 22023 another SRID or no line; 42704 no such region';
 
 CREATE FUNCTION abacus_voronoi_geom(
     mesh regclass,
@@ -165,7 +165,7 @@ BEGIN ATOMIC
           FROM abacus_hull(mesh, max_edge, within) AS h GROUP BY h.ring) AS r;
 END;
 COMMENT ON FUNCTION abacus_hull_geom(regclass, double precision, text) IS
-    'the convex hull of a mesh, or the outline of its simplices without longer edges. Polygons with holes, in space a TIN. within names a region of the mesh; all else is as outside of the mesh. Units: max_edge in those of the coordinates. Errors: those of abacus_hull; 42704 no such region';
+    'the convex hull of a mesh, or the outline of its simplices without longer edges. Polygons with holes, in space a TIN. within is the name of a region of the mesh, or a polygon as WKT, EWKT or hexadecimal EWKB; all else is as outside of the mesh. Units: max_edge in those of the coordinates. Errors: those of abacus_hull; 42704 no such region';
 
 CREATE FUNCTION abacus_alpha_shape_geom(
     mesh regclass,

@@ -12,7 +12,7 @@ RETURNS geometry
 AS 'MODULE_PATHNAME', 'abacus_sql_drape'
 LANGUAGE C STABLE PARALLEL SAFE COST 10000;
 COMMENT ON FUNCTION abacus_drape(regclass, geometry, text, boolean, text, double precision, text) IS
-    'points, lines or polygons with an attribute of a mesh in the plane as z. With densify, they get a place wherever they cross an edge. z is NaN outside the mesh, unless outside is nearest, and where a value is missing. within names a region of the mesh; all else is as outside of the mesh. Units: max_edge in those of the coordinates, z in those of the attribute. Errors: 22023 curves and surfaces, another SRID, a mesh of dimension 3, a coordinate that is not finite; 42703 no such attribute, 42702 none named where the mesh has several, 55000 none at all; 42704 no such region';
+    'points, lines or polygons with an attribute of a mesh in the plane as z. With densify, they get a place wherever they cross an edge. z is NaN outside the mesh, unless outside is nearest, and where a value is missing. within is the name of a region of the mesh, or a polygon as WKT, EWKT or hexadecimal EWKB; all else is as outside of the mesh. Units: max_edge in those of the coordinates, z in those of the attribute. Errors: 22023 curves and surfaces, another SRID, a mesh of dimension 3, a coordinate that is not finite; 42703 no such attribute, 42702 none named where the mesh has several, 55000 none at all; 42704 no such region';
 
 CREATE FUNCTION abacus_clip(
     mesh regclass,
@@ -46,4 +46,4 @@ BEGIN ATOMIC
     WHERE p.whole OR NOT ST_IsEmpty(p.part);
 END;
 COMMENT ON FUNCTION abacus_clip(regclass, geometry, text, double precision, text) IS
-    'the parts of the triangles of a mesh in the plane that lie within polygons. Triangles wholly inside stay as they are; others are cut at the border, with an attribute as z. within names a region of the mesh; all else is as outside of the mesh. Units: max_edge in those of the coordinates. Errors: 22023 no polygon, another SRID, a mesh of dimension 3; 42703 no such attribute; 42704 no such region';
+    'the parts of the triangles of a mesh in the plane that lie within polygons. Triangles wholly inside stay as they are; others are cut at the border, with an attribute as z. within is the name of a region of the mesh, or a polygon as WKT, EWKT or hexadecimal EWKB; all else is as outside of the mesh. Units: max_edge in those of the coordinates. Errors: 22023 no polygon, another SRID, a mesh of dimension 3; 42703 no such attribute; 42704 no such region';

@@ -48,12 +48,12 @@ abacus_status abacus_tile_terrain(const abacus_host *host, const abacus_facts *f
 
 abacus_status abacus_tile_vector(const abacus_host *host, const abacus_facts *facts,
                                  const abacus_tile *tile, const abacus_tile_vector_kind *kind,
-                                 const abacus_tile_memory *memory, abacus_picture *picture,
-                                 abacus_error *error) {
+                                 const abacus_region_names *names, const abacus_tile_memory *memory,
+                                 abacus_picture *picture, abacus_error *error) {
     return abacus::guard(error, [&] {
         require_plane(*facts);
         const abacus::Host wrapped(*host);
-        abacus::Png bytes = abacus::vector_tile(wrapped, *facts, *tile, *kind, *memory);
+        abacus::Png bytes = abacus::vector_tile(wrapped, *facts, *tile, *kind, names, *memory);
         const bool is_blank = bytes.size() == 0;
         return hand_over(std::move(bytes), is_blank, picture);
     });

@@ -95,8 +95,8 @@ Canvas::Canvas(const Host &host, const abacus_drawing &drawing, double low, doub
                std::int32_t margin)
     : host_(&host), drawing_(Extent(drawing).drawing()), low_(low), high_(high), margin_(margin),
       width_(drawing_.width + 2 * margin), height_(drawing_.height + 2 * margin),
-      frame_(drawing_, margin), range_(low, high), raster_(host, width_, height_), pixels_(host),
-      contours_(host), heights_(host) {
+      frame_(drawing_, margin), range_(low, high), raster_(host, width_, height_),
+      overlay_(host, drawing_, width_, height_), pixels_(host), contours_(host), heights_(host) {
     const bool has_contours = drawing_.contour_interval > 0 && has_values();
     if (has_contours && !((high / 2 - low / 2) / drawing_.contour_interval < most_contours / 2))
         throw Error(ABACUS_ERROR_ARGUMENT, "contours are too close to one another",
@@ -130,21 +130,30 @@ inline void Canvas::deposit(std::int32_t x, std::int32_t y, double covered, doub
     pixel.ink += static_cast<float>(ink);
 }
 
+bool Canvas::place(Patch &patch, Box<2> &box) const {
+    for (int i = 0; i < patch.corners; ++i) {
+        patch.corner[i][0] = frame_.x(patch.corner[i][0]);
+        patch.corner[i][1] = frame_.y(patch.corner[i][1]);
+        box.extend({patch.corner[i][0], patch.corner[i][1]});
+    }
+    return box.upper[0] > 0 && box.lower[0] < width_ && box.upper[1] > 0 && box.lower[1] < height_;
+}
+
+void Canvas::add_edges(const Patch &patch) {
+    host_->poll();
+    Patch p = patch;
+    Box<2> box;
+    if (place(p, box)) overlay_.edges(p, raster_);
+}
+
 void Canvas::add(const Patch &patch) {
     host_->poll(); // a page may have patches that cover the picture many times over by their edges
     Patch p = patch;
-    double left = 1e30, right = -1e30, top = 1e30, bottom = -1e30;
+    Box<2> box;
+    if (!place(p, box)) return;
     bool has_value = has_values();
-    for (int i = 0; i < p.corners; ++i) {
-        const double x = p.corner[i][0] = frame_.x(patch.corner[i][0]);
-        const double y = p.corner[i][1] = frame_.y(patch.corner[i][1]);
-        left = std::min(left, x);
-        right = std::max(right, x);
-        top = std::min(top, y);
-        bottom = std::max(bottom, y);
-        has_value = has_value && std::isfinite(patch.value[i]);
-    }
-    if (!(right > 0 && left < width_ && bottom > 0 && top < height_)) return;
+    for (int i = 0; i < p.corners; ++i) has_value = has_value && std::isfinite(patch.value[i]);
+    if (overlay_.is_needed()) overlay_.edges(p, raster_);
     if (!contours_.empty() && has_value) contour(p, patch.value);
 
     Shown mean{0, 0};
@@ -157,11 +166,12 @@ void Canvas::add(const Patch &patch) {
     }
     const double area = area_of(p);
     // In huge meshes, most patches lie within one pixel.
-    const double x = std::floor(left), y = std::floor(top);
-    if (x >= 0 && y >= 0 && right <= x + 1 && bottom <= y + 1) {
+    const double x = std::floor(box.lower[0]), y = std::floor(box.lower[1]);
+    if (x >= 0 && y >= 0 && box.upper[0] <= x + 1 && box.upper[1] <= y + 1) {
         const double count = p.spacing > 0 ? area * density(p.spacing) : 1;
-        deposit(static_cast<std::int32_t>(x), static_cast<std::int32_t>(y), area, count, mean,
-                drawing_.edges ? area * edge_tone(0) : 0);
+        const auto column = static_cast<std::int32_t>(x), row = static_cast<std::int32_t>(y);
+        deposit(column, row, area, count, mean, drawing_.edges ? area * edge_tone(0) : 0);
+        overlay_.tint(static_cast<std::size_t>(row) * width_ + column, p.region, area);
         return;
     }
     fill(p, heights, area, p.spacing > 0 ? density(p.spacing) : std::min(1 / area, most_density));
@@ -186,6 +196,7 @@ void Canvas::fill(const Patch &patch, const double (&heights)[Patch::most], doub
     raster_.fill(patch, [&](std::int32_t x, std::int32_t y, double covered) {
         const Shown shown{value(x + 0.5, y + 0.5), height(x + 0.5, y + 0.5)};
         deposit(x, y, covered, covered * density, shown, covered * tone);
+        overlay_.tint(static_cast<std::size_t>(y) * width_ + x, patch.region, covered);
     });
 }
 
@@ -237,10 +248,7 @@ void Canvas::leave_only(
     }
     each([&](const Patch &patch) {
         Patch p = patch;
-        for (int i = 0; i < p.corners; ++i) {
-            p.corner[i][0] = frame_.x(patch.corner[i][0]);
-            p.corner[i][1] = frame_.y(patch.corner[i][1]);
-        }
+        if (Box<2> box; !place(p, box)) return;
         raster_.fill(p, [&](std::int32_t x, std::int32_t y, double covered) {
             kept[static_cast<std::size_t>(y) * width_ + x] += static_cast<float>(covered);
         });
@@ -253,6 +261,7 @@ void Canvas::leave_only(
             *sum *= share;
         if (!contours_.empty()) contours_[i] *= share;
         if (!heights_.empty()) heights_[i] *= share;
+        overlay_.leave(i, share);
     }
 }
 

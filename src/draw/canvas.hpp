@@ -21,6 +21,7 @@
 #pragma once
 
 #include "draw/frame.hpp"
+#include "draw/overlay.hpp"
 #include "draw/palette.hpp"
 #include "draw/picture.hpp"
 #include "draw/raster.hpp"
@@ -50,6 +51,8 @@ public:
     /// Leaves only what other patches cover, which do not overlap: each(keep) calls keep(patch) for
     /// all of them.
     void leave_only(const std::function<void(const std::function<void(const Patch &)> &)> &each);
+    /// The fixed edges of a patch alone.
+    void add_edges(const Patch &patch);
 
     /// Whether no patch so far covers anything of the picture.
     bool is_blank() const;
@@ -85,6 +88,8 @@ private:
     double density(double spacing) const;
     void deposit(std::int32_t x, std::int32_t y, double covered, double count, Shown shown,
                  double ink);
+    /// The corners of a patch in pixels; false if none of the picture is near it.
+    bool place(Patch &patch, Box<2> &box) const;
 
     bool has_values() const { return low_ <= high_; }
     bool is_shaded() const { return is_shaded(drawing_) && low_ < high_; }
@@ -107,6 +112,7 @@ private:
     Frame frame_;
     Scale range_;
     Raster raster_;
+    Overlay overlay_;
     Arena<Pixel> pixels_;
     Arena<float> contours_; // shares of pixels under them; empty if there are none
     Arena<double> heights_; // shares of patches with values, times the value; empty unless shaded

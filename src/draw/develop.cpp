@@ -125,6 +125,7 @@ Picture Canvas::mesh() const {
                 // Lines glow in the colour of somewhat finer triangles.
                 const Color line = mix(palette(t + 0.22f), light, 0.1f + 0.15f * t);
                 tint = mix(palette(t), line, 0.8f * opacity(pixel->ink));
+                tint = overlay_.over(tint, index(x, y), pixel->covered);
             }
             row[x] = finish(tint, pixel->covered);
         }
@@ -170,6 +171,7 @@ Picture Canvas::values(const Palette &palette) {
                 tint = mix(tint, ink, 0.5f * opacity(pixel->ink));
                 if (!contours_.empty())
                     tint = mix(tint, ink, 0.8f * opacity(contours_[index(x, y)]));
+                tint = overlay_.over(tint, index(x, y), pixel->covered);
             }
             row[x] = finish(tint, pixel->covered);
         }

@@ -20,11 +20,14 @@ namespace abacus {
 /// value for each corner, linear in between, none where it is not finite.
 struct Patch {
     static constexpr int most = 6; // corners; the section of a box
+    enum class Edge : std::uint8_t { free, hard, soft };
 
     double corner[most][2];
     double value[most];
     int corners = 3;    // from 3
     double spacing = 0; // distance between vertices of the mesh around here; 0 = as the area tells
+    Edge edge[most] = {}; // whether the one from the corner before is fixed
+    std::uint32_t region = 0;
 
     /// Twice the area of three corners; positive if they turn left where y points up.
     double turn(int a, int b, int c) const {
@@ -34,8 +37,8 @@ struct Patch {
 };
 
 /// Largest width and height, and the most pixels of a picture: each pixel takes
-/// 24 bytes while it is drawn, 12 more with hill shading, 4 more with contours; a margin counts,
-/// too.
+/// 24 bytes while it is drawn, 12 more with hill shading, 4 more with contours, 20 more with
+/// regions, 4 more with fixed edges; a margin counts, too.
 inline constexpr std::int32_t max_side = 16384;
 inline constexpr std::int64_t max_pixels = std::int64_t{1} << 25;
 

@@ -177,15 +177,21 @@ private:
 
 Polygon::Polygon(const Host &host, const Point<2> *points, const std::size_t *sizes,
                  std::size_t rings)
-    : memory_(host), edges_(host), edge_tree_(host), parts_(host), part_tree_(host) {
+    : Polygon(host) {
     for (std::size_t ring = 0; ring < rings; points += sizes[ring++])
-        for (std::size_t i = 0; i < sizes[ring]; ++i) {
-            const Point<2> &a = points[i], &b = points[i + 1 < sizes[ring] ? i + 1 : 0];
-            if (a == b) continue;
-            const bool leads_right = lexicographically_less<2>(a, b);
-            edges_.push_back(leads_right ? Edge{a, b} : Edge{b, a});
-            edge_tree_.add(box_around(a, b));
-        }
+        for (std::size_t i = 0; i < sizes[ring]; ++i)
+            add_edge(points[i], points[i + 1 < sizes[ring] ? i + 1 : 0]);
+    finish(host);
+}
+
+void Polygon::add_edge(const Point<2> &a, const Point<2> &b) {
+    if (a == b) return;
+    edges_.push_back(lexicographically_less<2>(a, b) ? Edge{a, b} : Edge{b, a});
+    edge_tree_.add(box_around(a, b));
+}
+
+/// After the last edge.
+void Polygon::finish(const Host &host) {
     edge_tree_.finish();
     box_ = edge_tree_.around_all();
     Sweep(host, *this).run();

@@ -25,6 +25,13 @@ public:
     /// The rings one after the other, with `sizes` points; the last of a ring may repeat its first.
     Polygon(const Host &host, const Point<2> *points, const std::size_t *sizes, std::size_t rings);
 
+    /// The same with all its vertices moved, as on a map.
+    template <class Move>
+    Polygon(const Host &host, const Polygon &other, Move move) : Polygon(host) {
+        for (const Edge &edge : other.edges_) add_edge(move(edge.left), move(edge.right));
+        finish(host);
+    }
+
     const Box<2> &box() const { return box_; }
 
     /// +1 inside, 0 on the border, -1 outside.
@@ -70,6 +77,12 @@ public:
     }
 
 private:
+    explicit Polygon(const Memory &memory)
+        : memory_(memory), edges_(memory), edge_tree_(memory), parts_(memory),
+          part_tree_(memory) {}
+    void add_edge(const Point<2> &a, const Point<2> &b);
+    void finish(const Host &host);
+
     /// Its ends in lexicographic order.
     struct Edge {
         Point<2> left, right;

@@ -76,10 +76,11 @@ double spacing_of(const abacus_simplex &simplex, const MapPlane &plane) {
     return std::sqrt(std::fmax(twice, 0));
 }
 
-/// What a sample is drawn with: the value there, and the size of its triangle.
+/// What a sample is drawn with: the value there, the size of its triangle, and its region.
 struct Sample {
     double value;   // NaN: none
     double spacing; // negative outside the mesh
+    std::uint64_t region;
 };
 
 class SampleQuestion final : public Question<2> {
@@ -87,7 +88,8 @@ public:
     SampleQuestion(const abacus_drawing &drawing, const MapPlane &plane, const Samples &samples,
                    Canvas &canvas)
         : attribute_(static_cast<std::uint32_t>(std::max(drawing.attribute, 0))),
-          has_attribute_(drawing.attribute >= 0), extent_(drawing.extent), plane_(plane),
+          has_attribute_(drawing.attribute >= 0), extent_(without_polygon(drawing.extent)),
+          plane_(plane),
           samples_(samples), canvas_(canvas) {}
 
     std::size_t words() const override { return sizeof(Sample) / 8; }
@@ -95,9 +97,10 @@ public:
     void answer(Answerer<2> &by, const Point<2> &place, Tape &tape) const override {
         CornerValues values(&attribute_, 1);
         abacus_simplex simplex;
-        Sample sample{NAN, -1};
+        Sample sample{NAN, -1, no_region};
         if (by.reader.locate(place, simplex, has_attribute_ ? &values : nullptr, extent_)) {
             sample.spacing = spacing_of(simplex, plane_);
+            sample.region = simplex.region;
             if (has_attribute_) {
                 const auto weights = barycentric_weights<2>(simplex, place);
                 sample.value = weighted_mean(
@@ -113,6 +116,7 @@ public:
         Patch patch = samples_.patch(id);
         std::fill_n(patch.value, 4, sample.value);
         patch.spacing = sample.spacing;
+        patch.region = static_cast<std::uint32_t>(sample.region);
         canvas_.add(patch);
     }
 
@@ -134,6 +138,8 @@ Portrait draw_samples(const Host &host, const abacus_facts &facts, const TileWin
     Canvas canvas(host, drawing, drawing.attribute >= 0 ? drawing.range[0] : NAN,
                   drawing.attribute >= 0 ? drawing.range[1] : NAN, margin);
     places.each(SampleQuestion(drawing, window.plane(), samples, canvas));
+    draw_fixed_edges(host, facts, drawing, canvas);
+    leave_polygon(drawing, canvas);
     return {canvas.png(Palette::of(drawing.ramp, ABACUS_RAMP_TERRAIN)), canvas.is_blank()};
 }
 

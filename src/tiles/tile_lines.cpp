@@ -2,10 +2,7 @@
 
 namespace abacus {
 
-namespace {
-
-/// The part of a segment within the buffered tile; false if there is none.
-bool clip(Point<2> &a, Point<2> &b) {
+bool clip_to_tile(Point<2> &a, Point<2> &b) {
     const Box<2> box = buffered_tile();
     double begin = 0, end = 1;
     for (int axis = 0; axis < 2; ++axis) {
@@ -32,13 +29,9 @@ bool clip(Point<2> &a, Point<2> &b) {
     return true;
 }
 
-} // namespace
-
 void TileLines::add(double level, const Point<2> &a, const Point<2> &b) {
     Point<2> from = a, to = b;
-    if (!clip(from, to)) return;
-    const TilePoint first = rounded(from), last = rounded(to);
-    if (first != last) segments_.push_back({level, first, last, false});
+    if (clip_to_tile(from, to)) add_rounded(level, rounded(from), rounded(to));
 }
 
 TileLines::Segment *TileLines::next(const End &end) {
@@ -60,7 +53,7 @@ void TileLines::put_line(VectorLayer &layer, Segment *segment) {
     layer.add_line({line_.data(), line_.size()});
 }
 
-void TileLines::put_into(VectorLayer &layer, int key) {
+void TileLines::put_into(VectorLayer &layer, Tag tag) {
     const auto by_key = [](const auto &a, const auto &b) { return key_of(a) < key_of(b); };
     std::sort(segments_.begin(), segments_.end(), by_key);
     ends_.clear();
@@ -71,7 +64,7 @@ void TileLines::put_into(VectorLayer &layer, int key) {
             return segment.level != level->level;
         });
         layer.begin_lines();
-        if (key >= 0) layer.tag(static_cast<std::uint32_t>(key), level->level);
+        if (tag != nullptr) tag(layer, level->level);
         // Open lines first, then closed ones.
         for (const bool is_closed : {false, true})
             for (Segment *segment = level; segment != end; ++segment) {

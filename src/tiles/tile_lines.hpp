@@ -25,15 +25,24 @@ inline TilePoint rounded(const Point<2> &p) {
             static_cast<std::int32_t>(std::floor(p[1] + 0.5))};
 }
 
+/// The part of a segment within the buffered tile; false if there is none.
+bool clip_to_tile(Point<2> &a, Point<2> &b);
+
 class TileLines {
 public:
+    /// Tags a feature with its level.
+    using Tag = void (*)(VectorLayer &layer, double level);
+
     explicit TileLines(const Host &host) : host_(host), segments_(host), ends_(host), line_(host) {}
 
     /// A segment from a to b of the line, or the lines, of a level.
     void add(double level, const Point<2> &a, const Point<2> &b);
+    void add_rounded(double level, TilePoint a, TilePoint b) {
+        if (a != b) segments_.push_back({level, a, b, false});
+    }
     void clear() { segments_.clear(); }
-    /// A feature for each level; its number is the tag of this key, if that is not negative.
-    void put_into(VectorLayer &layer, int key);
+    /// A feature for each level, tagged with it unless `tag` is null.
+    void put_into(VectorLayer &layer, Tag tag);
 
 private:
     struct Segment {

@@ -96,6 +96,9 @@ void VectorLayer::write(const Host &host, TileWriter &tile) {
         case ValueKind::text:
             writer.add_string(value_string, std::to_string(integer));
             break;
+        case ValueKind::word:
+            writer.add_string(value_string, value.word);
+            break;
         }
     }
     layer.add_uint32(layer_extent, tile_extent);

@@ -29,8 +29,11 @@ public:
     /// `keys` of the tags, and `name`, live as long as the layer.
     VectorLayer(const Host &host, const char *name, std::initializer_list<const char *> keys)
         : name_(name), features_(host), geometry_(host), tags_(host) {
-        for (const char *key : keys) keys_[key_count_++] = key;
+        for (const char *key : keys) add_key(key);
     }
+
+    /// Another key, before any feature has begun.
+    void add_key(const char *key) { keys_[key_count_++] = key; }
 
     void begin_point(TilePoint p);
     /// A polygon, its corners clockwise as seen.
@@ -49,6 +52,10 @@ public:
             std::bit_cast<std::uint64_t>(id));
         has_texts_ = true;
     }
+    /// A word by its number: one word has one number. It lives as long as the layer.
+    void tag_word(std::uint32_t key, std::uint64_t number, const char *word) {
+        tags_.push_back({key, {ValueKind::word, number, word}});
+    }
     /// None if it is NaN.
     void tag(std::uint32_t key, double value) {
         if (value == value) tag(key, ValueKind::number, std::bit_cast<std::uint64_t>(value + 0.0));
@@ -59,7 +66,7 @@ public:
     void write(const Host &host, TileWriter &tile);
 
 private:
-    static constexpr std::size_t most_keys = 4;
+    static constexpr std::size_t most_keys = 5;
     static constexpr std::int64_t greatest_id = (std::int64_t{1} << 53) - 1;
 
     enum class Kind : std::uint32_t { point = 1, lines = 2, polygon = 3 };
@@ -67,11 +74,12 @@ private:
         Kind kind;
         std::uint32_t geometry, tags; // where they begin
     };
-    enum class ValueKind : std::uint8_t { number, integer, text };
+    enum class ValueKind : std::uint8_t { number, integer, text, word };
     struct Value {
         ValueKind kind;
-        std::uint64_t bits; // of a text, of the integer that it says
-        bool operator==(const Value &) const = default;
+        std::uint64_t bits; // of a text, of the integer that it says; of a word, its number
+        const char *word = nullptr;
+        bool operator==(const Value &v) const { return kind == v.kind && bits == v.bits; }
         bool operator<(const Value &v) const {
             return std::tie(kind, bits) < std::tie(v.kind, v.bits);
         }

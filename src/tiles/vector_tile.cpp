@@ -1,11 +1,14 @@
 #include "tiles/vector_tile.hpp"
 
+#include "geometry/clip_trapezoid.hpp"
 #include "geometry/tetrahedron_cut.hpp"
 #include "query/pages/extent.hpp"
 #include "query/pages/page_simplex.hpp"
 #include "query/pages/page_values.hpp"
+#include "query/scan/extent_pages.hpp"
+#include "query/scan/range_scan.hpp"
 #include "query/shapes/outline.hpp"
-#include "tiles/tile_lines.hpp"
+#include "tiles/fixed_lines.hpp"
 #include "tiles/tile_samples.hpp"
 
 #include <algorithm>
@@ -30,17 +33,30 @@ struct Corner {
 };
 using Triangle = std::array<Corner, 3>; // counterclockwise where y points up
 
+const char *name_of(const abacus_region_names &names, RegionNumber region) {
+    const char *name = nullptr;
+    host::require(names.name(names.context, region, &name));
+    return name;
+}
+
 class Maker {
 public:
     Maker(const Host &host, const abacus_facts &facts, const TileWindow &window,
-          const abacus_tile_vector_kind &kind, const abacus_tile_memory &memory)
-        : host_(host), facts_(facts), window_(window), kind_(kind), memory_(memory),
-          values_(host, facts, kind.attribute), triangles_(host), hull_(host), bytes_(host) {}
+          const abacus_tile_vector_kind &kind, const abacus_region_names *names,
+          const abacus_tile_memory &memory)
+        : host_(host), facts_(facts), window_(window), kind_(kind), names_(names), memory_(memory),
+          values_(host, facts, kind.attribute), triangles_(host), regions_(host), hull_(host),
+          fixed_(host), bytes_(host) {
+        if (const Polygon *polygon = polygon_of(kind.extent))
+            polygon_.emplace(host, *polygon,
+                             [this](const Point<2> &p) { return place_of_vertex(p); });
+    }
 
     Png make() {
         if (!read() || !write_all()) {
             sample();
             find_hull();
+            find_fixed();
             write_overview();
         }
         Png result(host_);
@@ -62,11 +78,23 @@ private:
         return box.meets(buffered_tile());
     }
 
+    /// What the tile shows has another border than the mesh.
+    bool is_part() const { return kind_.extent.region != no_region || polygon_; }
+    /// Calls visit(a, b) for the parts of a segment that count, in units of the tile.
+    template <class Visit>
+    void each_part(const Point<2> &a, const Point<2> &b, Visit visit) const {
+        if (!polygon_) return visit(a, b);
+        polygon_->cut(a, b, [&](const Polygon::Stretch &part) { visit(part.first, part.last); });
+    }
+
     bool read();
     bool read(const PageView<2> &page);
     void sample();
     void find_hull();
+    void find_fixed();
+    void add_fixed(const PageView<2> &page, int simplex);
     void add_triangles(VectorLayer &layer) const;
+    void add_triangle(VectorLayer &layer, std::size_t n, const std::array<Point<2>, 3> &part) const;
     void add_vertices(VectorLayer &layer) const;
     void add_contours(VectorLayer &layer) const;
     double interval() const;
@@ -77,10 +105,14 @@ private:
     const abacus_facts &facts_;
     const TileWindow &window_;
     const abacus_tile_vector_kind &kind_;
+    const abacus_region_names *names_; // null: triangles have none
     const abacus_tile_memory &memory_;
+    std::optional<Polygon> polygon_; // of the extent, in units of the tile
     PageValues<2> values_;
     Arena<Triangle> triangles_;
+    Arena<RegionNumber> regions_; // of the triangles
     TileLines hull_;
+    FixedLines fixed_;
     TileBuffer bytes_;
 };
 
@@ -105,7 +137,7 @@ bool Maker::read(const PageView<2> &page) {
             triangle[i] = {place_of_vertex(page.point(v)), NAN, page.id(v)};
         }
         if (is_ghost) {
-            if (kind_.extent.region == no_region)             // a region has another border
+            if (!is_part())
                 hull_.add(0, triangle[1].at, triangle[0].at); // as the triangle beside it sees it
             continue;
         }
@@ -114,8 +146,37 @@ bool Maker::read(const PageView<2> &page) {
         if (triangles_.size() == most_tile_triangles) return false;
         for (int i = 0; i < 3; ++i) triangle[i].value = values_.value(page.corner(s, i));
         triangles_.push_back(triangle);
+        regions_.push_back(page.region(s));
+        add_fixed(page, s);
     }
     return true;
+}
+
+void Maker::add_fixed(const PageView<2> &page, int simplex) {
+    const FixedFacets<2> fixed = page.fixed(simplex);
+    for (int i = 0; i < 3; ++i) {
+        if (!fixed.is_fixed(i)) continue;
+        const auto end = [&](int next) {
+            return place_of_vertex(page.point(page.corner(simplex, (i + next) % 3)));
+        };
+        each_part(end(1), end(2), [&](const Point<2> &from, const Point<2> &to) {
+            fixed_.add(fixed[i], from, to);
+        });
+    }
+}
+
+/// Of a tile with many triangles.
+void Maker::find_fixed() {
+    fixed_.clear();
+    if (facts_.census.lines == 0) return;
+    const BoxRegion<2> region(window_.in_mesh(margin));
+    RangeScan<2> pages(host_, facts_, &region, pages_in<2>(kind_.extent));
+    while (pages.advance()) {
+        const PageView<2> &page = pages.page();
+        for (int s = 0; page.is_lined() && s < page.simplices(); ++s)
+            if (page.fixed(s).count() > 0 && !page.is_ghost(s) && is_in<2>(kind_.extent, page, s))
+                add_fixed(page, s);
+    }
 }
 
 /// Replaces the triangles by two for each square of a grid on which the attribute is known.
@@ -127,7 +188,8 @@ void Maker::sample() {
     const Box<2> box = window_.wider(1.5 / squares);
     ValueRaster<2> rows =
         tile_samples(host_, facts_, window_, box, points,
-                     {static_cast<std::uint32_t>(kind_.attribute), kind_.extent}, memory_);
+                     {static_cast<std::uint32_t>(kind_.attribute), without_polygon(kind_.extent)},
+                     memory_);
     constexpr double step = double{tile_extent} / squares;
     std::array<double, points> above{}, here{};
     for (std::uint32_t y = 0; y < points; ++y) {
@@ -148,7 +210,7 @@ void Maker::sample() {
 /// Walks around the hull. In a mesh that is not Delaunay, it would have to read all pages.
 void Maker::find_hull() {
     hull_.clear();
-    if (!abacus_links_ghosts(facts_.standing)) return;
+    if (is_part() || !abacus_links_ghosts(facts_.standing)) return;
     Outline<2> outline(host_, facts_, {}, memory_.sort, memory_.cache);
     abacus_outline_row row;
     std::optional<Point<2>> first, last;
@@ -183,35 +245,64 @@ std::size_t cut(const std::array<Point<2>, 8> &polygon, std::size_t size, int ax
 }
 
 void Maker::add_triangles(VectorLayer &layer) const {
-    const Box<2> box = buffered_tile();
-    for (const Triangle &triangle : triangles_) {
-        std::array<Point<2>, 8> polygon, other; // each side of the box adds at most one corner
-        std::size_t size = 3;
-        for (std::size_t i = 0; i < 3; ++i) polygon[i] = triangle[i].at;
-        for (int axis = 0; axis < 2; ++axis) {
-            size = cut(polygon, size, axis, box.lower[axis], 1, other);
-            size = cut(other, size, axis, box.upper[axis], -1, polygon);
+    for (std::size_t n = 0; n < triangles_.size(); ++n) {
+        const Triangle &triangle = triangles_[n];
+        if (!polygon_) {
+            add_triangle(layer, n, {triangle[0].at, triangle[1].at, triangle[2].at});
+            continue;
         }
-        std::array<TilePoint, 8> ring;
-        std::size_t corners = 0;
-        for (std::size_t i = 0; i < size; ++i) {
-            const TilePoint corner = rounded(polygon[i]);
-            if (corners == 0 || corner != ring[corners - 1]) ring[corners++] = corner;
+        const Point<2> origin = triangle[0].at;
+        Piece<2> whole{};
+        Box<2> box;
+        for (int i = 0; i < 3; ++i) {
+            const Point<2> &p = triangle[i].at;
+            box.extend(p);
+            whole.corner[i] = {p[0] - origin[0], p[1] - origin[1]};
         }
-        while (corners > 1 && ring[corners - 1] == ring[0]) --corners;
-        std::int64_t area = 0; // twice that of the reversed ring, which appears clockwise
-        for (std::size_t i = 0, j = corners - 1; i < corners; j = i++)
-            area += std::int64_t{ring[i].x} * ring[j].y - std::int64_t{ring[j].x} * ring[i].y;
-        if (area <= 0) continue; // flat after rounding
-        std::reverse(ring.begin(), ring.begin() + corners);
-        layer.begin_polygon({ring.data(), corners});
-        double sum = 0;
-        for (std::uint32_t i = 0; i < 3; ++i) {
-            layer.tag_id(i, triangle[i].id);
-            sum += triangle[i].value / 3;
-        }
-        layer.tag(3, sum);
+        polygon_->each_part(box, [&](const Polygon::Trapezoid &trapezoid) {
+            clip_trapezoid(whole, trapezoid, origin, [&](const Piece<2> &part) {
+                std::array<Point<2>, 3> corners;
+                for (int i = 0; i < 3; ++i)
+                    corners[i] = {part.corner[i][0] + origin[0], part.corner[i][1] + origin[1]};
+                add_triangle(layer, n, corners);
+            });
+        });
     }
+}
+
+/// Adds a part of triangle n.
+void Maker::add_triangle(VectorLayer &layer, std::size_t n,
+                         const std::array<Point<2>, 3> &part) const {
+    const Box<2> box = buffered_tile();
+    std::array<Point<2>, 8> polygon, other; // each side of the box adds at most one corner
+    std::size_t size = 3;
+    std::copy_n(part.begin(), 3, polygon.begin());
+    for (int axis = 0; axis < 2; ++axis) {
+        size = cut(polygon, size, axis, box.lower[axis], 1, other);
+        size = cut(other, size, axis, box.upper[axis], -1, polygon);
+    }
+    std::array<TilePoint, 8> ring;
+    std::size_t corners = 0;
+    for (std::size_t i = 0; i < size; ++i) {
+        const TilePoint corner = rounded(polygon[i]);
+        if (corners == 0 || corner != ring[corners - 1]) ring[corners++] = corner;
+    }
+    while (corners > 1 && ring[corners - 1] == ring[0]) --corners;
+    std::int64_t area = 0; // twice that of the reversed ring
+    for (std::size_t i = 0, j = corners - 1; i < corners; j = i++)
+        area += std::int64_t{ring[i].x} * ring[j].y - std::int64_t{ring[j].x} * ring[i].y;
+    if (area == 0 || (area < 0 && !polygon_)) return; // flat after rounding
+    if (area > 0) std::reverse(ring.begin(), ring.begin() + corners); // clockwise on the screen
+    layer.begin_polygon({ring.data(), corners});
+    const Triangle &triangle = triangles_[n];
+    double sum = 0;
+    for (std::uint32_t i = 0; i < 3; ++i) {
+        layer.tag_id(i, triangle[i].id);
+        sum += triangle[i].value / 3;
+    }
+    layer.tag(3, sum);
+    if (names_ != nullptr && regions_[n] != no_region)
+        layer.tag_word(4, regions_[n], name_of(*names_, regions_[n]));
 }
 
 void Maker::add_vertices(VectorLayer &layer) const {
@@ -219,7 +310,8 @@ void Maker::add_vertices(VectorLayer &layer) const {
     const Box<2> box = buffered_tile();
     for (const Triangle &triangle : triangles_)
         for (const Corner &corner : triangle)
-            if (box.contains(corner.at)) corners.push_back(corner);
+            if (box.contains(corner.at) && (!polygon_ || polygon_->contains(corner.at)))
+                corners.push_back(corner);
     const auto key = [](const Corner &c) { return std::tuple(c.at, c.id); };
     std::sort(corners.begin(), corners.end(),
               [&](const Corner &a, const Corner &b) { return key(a) < key(b); });
@@ -277,24 +369,30 @@ void Maker::add_contours(VectorLayer &layer) const {
                 Point<2> &at = is_above ? rise : fall;
                 for (int k = 0; k < 2; ++k) at[k] = std::lerp(low.at[k], high.at[k], share);
             }
-            lines.add(level, rise, fall);
+            each_part(rise, fall, [&](const Point<2> &from, const Point<2> &to) {
+                lines.add(level, from, to);
+            });
         }
     });
-    lines.put_into(layer, 0);
+    lines.put_into(layer, [](VectorLayer &l, double level) { l.tag(0, level); });
 }
 
 void Maker::write_overview() {
     TileWriter tile(bytes_);
-    VectorLayer contours(host_, "contours", {"value"}), hull(host_, "hull", {});
+    VectorLayer contours(host_, "contours", {"value"}), fixed(host_, "fixed", {"kind"}),
+        hull(host_, "hull", {});
     add_contours(contours);
     contours.write(host_, tile);
-    hull_.put_into(hull, -1);
+    fixed_.put_into(fixed);
+    fixed.write(host_, tile);
+    hull_.put_into(hull, nullptr);
     hull.write(host_, tile);
 }
 
 /// False, with nothing written, if that is too large.
 bool Maker::write_all() {
     VectorLayer triangles(host_, "triangles", {"v0", "v1", "v2", "value"});
+    if (names_ != nullptr) triangles.add_key("region");
     VectorLayer vertices(host_, "vertices", {"id", "value"});
     add_triangles(triangles);
     add_vertices(vertices);
@@ -312,13 +410,14 @@ bool Maker::write_all() {
 } // namespace
 
 Png vector_tile(const Host &host, const abacus_facts &facts, const abacus_tile &tile,
-                const abacus_tile_vector_kind &kind, const abacus_tile_memory &memory) {
+                const abacus_tile_vector_kind &kind, const abacus_region_names *names,
+                const abacus_tile_memory &memory) {
     const TileWindow window(tile, facts);
     if (kind.attribute >= static_cast<std::int32_t>(facts.columns.attributes))
         throw Error(ABACUS_ERROR_ARGUMENT, "the mesh has no such attribute");
     if (!(std::isfinite(kind.contour_interval) && kind.contour_interval >= 0))
         throw Error(ABACUS_ERROR_ARGUMENT, "interval of the contours is negative or not finite");
-    return Maker(host, facts, window, kind, memory).make();
+    return Maker(host, facts, window, kind, names, memory).make();
 }
 
 } // namespace abacus

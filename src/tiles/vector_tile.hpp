@@ -1,9 +1,10 @@
 // A tile of a mesh as a Mapbox vector tile.
 //
 // A tile with few triangles has all of them: layers of triangles, of vertices, of contours through
-// these triangles, and of the edges of the hull. A tile with many would be too large, and would
-// take as long as the mesh is large. It has contours between samples of a grid, which tiles share
-// at their seams, and the hull; it reads the pages that have a sample.
+// these triangles, of fixed edges, and of the edges of the hull. A tile with many would be too
+// large, and would take as long as the mesh is large. It has contours between samples of a grid,
+// which tiles share at their seams, and the hull; it reads the pages that have a sample. If the
+// mesh has lines, all pages of the tile are read for its fixed edges.
 #pragma once
 
 #include "draw/picture.hpp"
@@ -15,8 +16,10 @@ namespace abacus {
 inline constexpr std::size_t most_tile_bytes = 500000;
 inline constexpr std::size_t most_tile_triangles = 4096;
 
-/// Throws an Error (argument) if there is no such tile. The bytes are a tile's, not a PNG's.
+/// Throws an Error (argument) if there is no such tile. Triangles have no names of regions if
+/// `names` is null. The bytes are a tile's, not a PNG's.
 Png vector_tile(const Host &host, const abacus_facts &facts, const abacus_tile &tile,
-                const abacus_tile_vector_kind &kind, const abacus_tile_memory &memory);
+                const abacus_tile_vector_kind &kind, const abacus_region_names *names,
+                const abacus_tile_memory &memory);
 
 } // namespace abacus

@@ -22,13 +22,13 @@ def tile(call):
     return base64.b64decode(abacus.rows(f"SELECT translate(encode({call}, 'base64'), E'\\n', '')")[0][0])
 
 
-def features(layer, encoded):
+def features(layer, encoded, place=(ZOOM, X, Y)):
     """GDAL's, in metres of Web Mercator."""
     with tempfile.TemporaryDirectory() as folder:
         path = pathlib.Path(folder, "tile.pbf")
         path.write_bytes(encoded)
         text = subprocess.run(["ogr2ogr", "-f", "GeoJSON", "/vsistdout/", str(path), layer, "-oo", "CLIP=NO",
-                               "-oo", f"X={X}", "-oo", f"Y={Y}", "-oo", f"Z={ZOOM}", "-lco", "RFC7946=NO",
+                               "-oo", f"X={place[1]}", "-oo", f"Y={place[2]}", "-oo", f"Z={place[0]}", "-lco", "RFC7946=NO",
                                "-t_srs", "EPSG:3857"], check=True, capture_output=True).stdout
     return json.loads(text)["features"]
 
@@ -126,6 +126,52 @@ class Tiles(unittest.TestCase):
         for level, (height,) in zip(levels, heights):
             self.assertAlmostEqual(level, float(height), delta=5)  # half a unit on a slope; edges are straight on the map
             self.assertEqual(level % 50, 0)
+
+    def test_regions_and_fixed_edges(self):
+        """Of a mesh with a square, a soft line through it and another region; at each zoom, however many triangles a tile has."""
+        west, south, east, north = self.window
+        abacus.psql("""
+            DROP TABLE IF EXISTS shore CASCADE;
+            SELECT abacus_triangulate('shore', 'SELECT id, x, y, attributes[1] AS height FROM abacus_vertices(''hills'') UNION ALL
+                SELECT 10000 + i, 7.9 + i % 2 * 0.2, 46.3 + i / 2 * 0.2, 0 FROM generate_series(0, 3) AS i');
+            SELECT abacus_set_srid('shore', 4326);
+            SELECT abacus_constrain('shore', 'VALUES (1, 1, 10000), (1, 2, 10001), (1, 3, 10003), (1, 4, 10002), (1, 5, 10000)');
+            SELECT abacus_constrain('shore', 'VALUES (2, 1, 10000), (2, 2, 10003)', kind => 'soft');
+            SELECT abacus_region('shore', $$VALUES ('Südufer', 8.05, 46.35)$$)""")
+        x, y = projected(numpy.array([7.9, 8.1]), numpy.array([46.3, 46.5]))
+        regions = {}
+        for v0, v1, v2, corners in abacus.rows("SELECT v0, v1, v2, corners FROM abacus_cells('shore', within => 'Südufer')"):
+            regions[frozenset(map(int, (v0, v1, v2)))] = corners
+        encoded = tile(f"abacus_tile_vector('shore', {ZOOM}, {X}, {Y})")
+        triangles = features("triangles", encoded)
+        named = [f["properties"] for f in triangles if f["properties"].get("region") is not None]
+        self.assertTrue(0 < len(named) < len(triangles))
+        for tags in (f["properties"] for f in triangles):
+            ids = frozenset((tags["v0"], tags["v1"], tags["v2"]))
+            self.assertEqual(tags.get("region"), "Südufer" if ids in regions else None)
+        # a tile in which the whole square lies, with few and with many triangles
+        for zoom, tile_x, tile_y in ((8, 133, 90), (0, 0, 0)):
+            encoded = tile(f"abacus_tile_vector('shore', {zoom}, {tile_x}, {tile_y})")
+            unit = 2 * METRES / 2**zoom / 4096
+            found = {f["properties"]["kind"]: f["geometry"] for f in features("fixed", encoded, (zoom, tile_x, tile_y))}
+            self.assertEqual(set(found), {"hard", "soft"} if zoom else set(found))
+            for kind, geometry in found.items():
+                parts = geometry["coordinates"] if geometry["type"] == "MultiLineString" else [geometry["coordinates"]]
+                places = numpy.array([place for part in parts for place in part])
+                across = numpy.abs((places[:, 0] - x[0]) / (x[1] - x[0]) - (places[:, 1] - y[0]) / (y[1] - y[0]))
+                beside = numpy.minimum(numpy.abs(places[:, :1] - x).min(1), numpy.abs(places[:, 1:] - y).min(1))
+                self.assertLess((across * (y[1] - y[0]) if kind == "soft" else beside).max(), 300 + unit)
+                if zoom:
+                    length = sum(numpy.hypot(*numpy.diff(numpy.array(part), axis=0).T).sum() for part in parts)
+                    expected = numpy.hypot(x[1] - x[0], y[1] - y[0]) if kind == "soft" else 2 * (x[1] - x[0] + y[1] - y[0])
+                    self.assertAlmostEqual(length / expected, 1, places=1)
+        # without the region, within it, and with many triangles
+        self.assertEqual({f["properties"]["kind"] for f in features("fixed", tile(f"abacus_tile_vector('shore', 8, 133, 90, within => 'Südufer')"), (8, 133, 90))},
+                         {"hard", "soft"})
+        abacus.psql("SELECT abacus_unregion('shore', 'Südufer')")
+        for feature in features("triangles", tile(f"abacus_tile_vector('shore', {ZOOM}, {X}, {Y})")):
+            self.assertIsNone(feature["properties"].get("region"))
+        self.assertNotIn(b"fixed", tile(f"abacus_tile_vector('hills', {ZOOM}, {X}, {Y})"))
 
     def test_heights(self):
         pixels = matplotlib.image.imread(io.BytesIO(tile(f"abacus_tile_terrain('hills', {ZOOM}, {X}, {Y}, size => 32)")), "png")

@@ -82,6 +82,63 @@ TEST(Ramp, IsTheUsualOneUnlessNamed) {
     EXPECT_EQ(draw(drawing, middle)(4, 4), encode(Palette::magma()(0.5f)));
 }
 
+/// The unit square in two regions, told apart at its diagonal, which is fixed, as is the lower
+/// side.
+Image draw_regions(const abacus_drawing &drawing, Patch::Edge kind = Patch::Edge::hard) {
+    MemoryHost memory;
+    Image image;
+    {
+        const Host host = memory.host();
+        Canvas canvas(host, drawing, drawing.range[0], drawing.range[1]);
+        Patch lower{{{0, 0}, {1, 0}, {1, 1}}, {0.5, 0.5, 0.5}}, upper{{{0, 0}, {1, 1}, {0, 1}}};
+        std::fill_n(upper.value, 3, 0.5);
+        lower.region = 1;
+        upper.region = 2;
+        lower.edge[1] = lower.edge[0] = upper.edge[1] = kind;
+        canvas.add(lower);
+        canvas.add(upper);
+        image = decode(canvas.png(Palette::of(drawing.ramp, ABACUS_RAMP_TERRAIN)));
+    }
+    EXPECT_EQ(memory.bytes, 0u);
+    return image;
+}
+
+TEST(Overlay, TintsRegions) {
+    abacus_drawing drawing = square(40);
+    const Image plain = draw(drawing, middle);
+    EXPECT_EQ(draw_regions(drawing)(30, 30), plain(30, 30));
+    drawing.regions = 1;
+    const Image tinted = draw_regions(drawing);
+    EXPECT_GT(difference(tinted(30, 30), plain(30, 30)), 20);
+    EXPECT_GT(difference(tinted(10, 10), plain(10, 10)), 20);
+    EXPECT_GT(difference(tinted(30, 30), tinted(10, 10)), 20);
+    EXPECT_EQ(tinted(30, 30), tinted(20, 35)); // evenly
+    // the border is in the colour of the region itself
+    EXPECT_GT(difference(tinted(20, 39), tinted(20, 30)), 20);
+    EXPECT_EQ(tinted(39, 20), tinted(30, 30)); // that side is free
+}
+
+TEST(Overlay, DrawsFixedEdges) {
+    abacus_drawing drawing = square(40);
+    drawing.lines = 1;
+    const Image plain = draw(square(40), middle), hard = draw_regions(drawing);
+    const Image soft = draw_regions(drawing, Patch::Edge::soft);
+    const auto change = [&](const Image &image) {
+        int sum = 0;
+        for (int y = 0; y < 40; ++y)
+            for (int x = 0; x < 40; ++x) sum += difference(image(x, y), plain(x, y));
+        return sum;
+    };
+    EXPECT_EQ(change(draw_regions(drawing, Patch::Edge::free)), 0);
+    const int whole = difference(hard(20, 39), plain(20, 39));
+    EXPECT_GT(whole, 60);
+    EXPECT_GT(change(soft), 70 * whole); // the diagonal and a side
+    EXPECT_GT(change(hard), change(soft) * 1.2);
+    EXPECT_LT(change(hard), 200 * whole);
+    EXPECT_EQ(hard(20, 39), hard(15, 39)); // a line at the border of the mesh is a whole one
+    EXPECT_EQ(hard(30, 30), plain(30, 30));
+}
+
 TEST(Light, ComesFromWhereItIsSaid) {
     abacus_drawing drawing = square(64);
     drawing.exaggeration = 1;

@@ -5,6 +5,7 @@
 #include "query/values/barycentric.hpp"
 #include "support/image.hpp"
 #include "support/large_mesh.hpp"
+#include "tiles/fixed_lines.hpp"
 #include "tiles/picture_tile.hpp"
 #include "tiles/terrain_tile.hpp"
 #include "tiles/tile_lines.hpp"
@@ -77,6 +78,7 @@ std::string error_of(const std::function<void()> &call) {
 struct ReadFeature {
     std::uint32_t type = 0;
     std::map<std::string, double> tags;
+    std::map<std::string, std::string> words;
     std::vector<std::vector<TilePoint>> parts;
 };
 using ReadTile = std::map<std::string, std::vector<ReadFeature>>;
@@ -101,6 +103,7 @@ void read_layer(protozero::pbf_reader layer, ReadTile &tile) {
     std::string name;
     std::vector<std::string> keys;
     std::vector<double> values;
+    std::map<std::size_t, std::string> words; // values that are texts
     std::vector<std::vector<std::uint32_t>> tags;
     std::vector<ReadFeature> features;
     while (layer.next()) switch (layer.tag()) {
@@ -119,8 +122,10 @@ void read_layer(protozero::pbf_reader layer, ReadTile &tile) {
         case 4: {
             protozero::pbf_reader value = layer.get_message();
             ASSERT_TRUE(value.next());
-            values.push_back(value.tag() == 3 ? value.get_double()
-                                              : static_cast<double>(value.get_sint64()));
+            if (value.tag() == 1) words[values.size()] = value.get_string();
+            values.push_back(value.tag() == 3   ? value.get_double()
+                             : value.tag() == 6 ? static_cast<double>(value.get_sint64())
+                                                : NAN);
             break;
         }
         case 2: {
@@ -149,15 +154,18 @@ void read_layer(protozero::pbf_reader layer, ReadTile &tile) {
             FAIL() << layer.tag();
         }
     for (std::size_t i = 0; i < features.size(); ++i)
-        for (std::size_t n = 0; n < tags[i].size(); n += 2)
-            features[i].tags[keys.at(tags[i][n])] = values.at(tags[i][n + 1]);
+        for (std::size_t n = 0; n < tags[i].size(); n += 2) {
+            const std::string &key = keys.at(tags[i][n]);
+            features[i].tags[key] = values.at(tags[i][n + 1]);
+            if (words.count(tags[i][n + 1]) > 0) features[i].words[key] = words.at(tags[i][n + 1]);
+        }
     tile[name] = features;
 }
 
 ReadTile read_vector(MeshOf<2> &mesh, const abacus_tile &tile, const abacus_tile_vector_kind &kind,
                      std::size_t *bytes = nullptr) {
     const Host host = mesh.host.host();
-    const Png encoded = vector_tile(host, mesh.header, tile, kind, plenty);
+    const Png encoded = vector_tile(host, mesh.header, tile, kind, nullptr, plenty);
     if (bytes != nullptr) *bytes = encoded.size();
     ReadTile result;
     protozero::pbf_reader reader(reinterpret_cast<const char *>(encoded.data()), encoded.size());
@@ -369,7 +377,7 @@ TEST(TileLines, AreJoinedAndCut) {
     lines.add(2, {0, 0}, {0.2, 0.3});   // nothing after rounding
     lines.add(3, {-500, 0}, {0, -500}); // outside
     VectorLayer layer(host, "lines", {"value"});
-    lines.put_into(layer, 0);
+    lines.put_into(layer, [](VectorLayer &l, double level) { l.tag(0, level); });
     TileBuffer bytes(host);
     {
         TileWriter tile(bytes);
@@ -381,6 +389,64 @@ TEST(TileLines, AreJoinedAndCut) {
     ASSERT_EQ(read.at("lines").size(), 1u);
     EXPECT_EQ(read.at("lines")[0].parts,
               (std::vector<std::vector<TilePoint>>{{{0, 0}, {10, 10}, {20, 10}, {4160, 10}}}));
+}
+
+ReadTile read_fixed(const Host &host, FixedLines &lines) {
+    VectorLayer layer(host, "fixed", {"kind"});
+    lines.put_into(layer);
+    TileBuffer bytes(host);
+    {
+        TileWriter tile(bytes);
+        layer.write(host, tile);
+    }
+    EXPECT_LE(bytes.size(), most_tile_bytes);
+    ReadTile read;
+    protozero::pbf_reader reader(bytes.data(), bytes.size());
+    while (reader.next(3)) read_layer(reader.get_message(), read);
+    return read;
+}
+
+TEST(FixedLines, AreThereOnceWithTheirKind) {
+    MemoryHost memory;
+    const Host host = memory.host();
+    FixedLines lines(host);
+    lines.add(Fixed::hard, {10, 10}, {0, 0});
+    lines.add(Fixed::hard, {0, 0}, {10, 10}); // from the other side
+    lines.add(Fixed::hard, {10, 10}, {9000, 10});
+    lines.add(Fixed::soft, {50, 0}, {50, -9000});
+    lines.add(Fixed::soft, {5, 5}, {5.2, 5.1});
+    const ReadTile read = read_fixed(host, lines);
+    const auto &features = read.at("fixed");
+    ASSERT_EQ(features.size(), 2u);
+    EXPECT_EQ(features[0].words.at("kind"), "hard");
+    EXPECT_EQ(features[0].parts,
+              (std::vector<std::vector<TilePoint>>{{{0, 0}, {10, 10}, {4160, 10}}}));
+    EXPECT_EQ(features[1].words.at("kind"), "soft");
+    EXPECT_EQ(features[1].parts, (std::vector<std::vector<TilePoint>>{{{50, -64}, {50, 0}}}));
+}
+
+TEST(FixedLines, StayFewInAnyOrder) {
+    MemoryHost memory;
+    const Host host = memory.host();
+    Random random(7);
+    std::vector<std::pair<Point<2>, Point<2>>> edges;
+    for (int i = 0; i < 200000; ++i) {
+        const Point<2> a = unit_point<2>(random), b = unit_point<2>(random);
+        edges.push_back(
+            {{a[0] * 4096, a[1] * 4096}, {a[0] * 4096 + b[0] * 40, a[1] * 4096 + b[1] * 40}});
+    }
+    const auto parts = [&] {
+        FixedLines lines(host);
+        for (const auto &[a, b] : edges) lines.add(Fixed::hard, a, b);
+        return read_fixed(host, lines).at("fixed").at(0).parts;
+    };
+    const auto first = parts();
+    std::size_t segments = 0;
+    for (const auto &line : first) segments += line.size() - 1;
+    EXPECT_GT(segments, 2000u);
+    EXPECT_LE(segments, FixedLines::most);
+    std::reverse(edges.begin(), edges.end());
+    EXPECT_EQ(parts(), first);
 }
 
 // ---- Pictures --------------------------------------------------------------------------
@@ -555,10 +621,11 @@ TEST(Tile, NeedsLatitudes) {
     MeshOf<2> mesh(0);
     ASSERT_EQ(mesh.insert({{1, {0, 0}, {}}, {2, {1000, 0}, {}}, {3, {0, 1000}, {}}}), ABACUS_OK);
     const Host host = mesh.host.host();
-    EXPECT_EQ(error_of([&] {
-                  vector_tile(host, mesh.header, {0, 0, 0, 1, {}, {}}, {-1, 0, {}}, plenty);
-              }),
-              "the mesh is not in longitude and latitude");
+    EXPECT_EQ(
+        error_of([&] {
+            vector_tile(host, mesh.header, {0, 0, 0, 1, {}, {}}, {-1, 0, {}}, nullptr, plenty);
+        }),
+        "the mesh is not in longitude and latitude");
 }
 
 TEST(Tile, MemoryIsGivenBack) {

@@ -4,6 +4,7 @@ import { readFileSync } from "node:fs";
 import { test } from "node:test";
 import { filled, segments, side } from "../../viewer/page/border.js";
 import { Intervals } from "../../viewer/page/contours.js";
+import { outside } from "../../viewer/page/outside.js";
 import { stops } from "../../viewer/page/palette.js";
 import { asked, askAt, cell, choose, display, open, page, pictures, says, setUp, take } from "./browser.js";
 import { psql, serve } from "./support.js";
@@ -19,7 +20,7 @@ setUp(async () => {
         SELECT abacus_set_srid('valley', 25832);
         SELECT abacus_constrain('valley', 'VALUES (7, 1, 305), (7, 2, 1010), (7, 3, 1715)');
         SELECT abacus_triangulate('none', 'SELECT 1, 1.0::float8, 2.0::float8, 3.0::float8 WHERE false')`);
-    return { valley: await serve("valley"), none: await serve("none") };
+    return { valley: await serve("valley"), none: await serve("none"), shire: await serve("shire") };
 });
 
 test("legend, scale, coordinates and value under the pointer; the range of the view", async () => {
@@ -90,6 +91,39 @@ test("fixed edges are drawn, and the triangle under the pointer is outlined", as
     await take("lines");
 });
 
+test("regions are tinted, named under the pointer and in the panel, and shown alone", async () => {
+    const lake = `O'Hara & "lake"`, over = (x, y) => page.locator("#view canvas").hover({ position: { x, y } });
+    await open("shire");
+    assert.equal(await page.locator("#view").getAttribute("data-regions"), "2");
+    for (const [x, y, region] of [[490, 340, lake], [500, 150, "farm"]]) {
+        await over(x, y);
+        await page.waitForFunction((name) => document.querySelector("#pointer em")?.textContent === name, region);
+        assert.equal(psql(`SELECT abacus_region_at('shire', ${await pointed()})`), region);
+    }
+    await page.locator("#view canvas").click({ position: { x: 490, y: 340 } });
+    assert.equal(cell(await says(/Region/), "Region"), lake);
+    await display();
+    assert.match(await page.locator("#regions-row").innerText(), /Tints of 2 regions/);
+    await Promise.all([asks(/picture.*regions=yes/), page.locator("#regions").check()]);
+    await take("regions");
+    assert.deepEqual(await page.locator("#within option").allInnerTexts(), ["whole mesh", lake, "farm"]);
+    const tile = (kind) => (response) => response.url().includes(`/tiles/${kind}/`) && new URL(response.url()).searchParams.get("within") === "farm" && response.status() === 200;
+    await Promise.all([...["picture", "vector", "terrain"].map((kind) => page.waitForResponse(tile(kind))), page.locator("#within").selectOption("farm")]);
+    await take("region");
+    // the region that is shown alone goes: the whole mesh is shown again
+    psql("SELECT abacus_unregion('shire', 'farm')");
+    await page.locator("#attribute").dispatchEvent("change");
+    await page.waitForFunction(() => document.getElementById("view").dataset.regions === "1" && document.getElementById("within").value === "");
+    await page.waitForSelector("#view[data-ready=true]");
+});
+
+test("a mesh without regions offers none", async () => {
+    await open("valley");
+    await display();
+    for (const id of ["regions-row", "within-row"]) assert.equal(await page.locator(`#${id}`).isVisible(), false);
+    assert.deepEqual(asked.filter((url) => /regions=|within=/.test(url)), []);
+});
+
 test("an empty mesh is said to be empty", async () => {
     await open("none");
     await says(/no triangles yet/);
@@ -144,6 +178,16 @@ test("beyond the border neighbouring tiles of heights agree along their seam", (
     assert.ok(within > 0 && most <= within * 1.0001, `${most} at seams, ${within} within`);
     const known = new Float32Array(side * side).fill(7);
     assert.deepEqual(filled(known, 2, 1, 1, border), known);
+});
+
+test("outside are the holes of the mesh, too, but not the parts in them", () => {
+    const box = (from, to) => [[from, from], [to, from], [to, to], [from, to], [from, from]], hole = (from, to) => box(from, to).reverse(), world = box(-100, 100);
+    assert.deepEqual(outside(world, [box(0, 10)]), [[world, box(0, 10)]]);
+    // two holes, an island in one of them, with a pond, and another part of the mesh
+    assert.deepEqual(outside(world, [hole(1, 5), box(0, 10), box(2, 4), hole(2.5, 3.5), hole(6, 7), box(20, 30)]),
+        [[world, box(0, 10), box(20, 30)], [hole(2.5, 3.5)], [hole(6, 7)], [hole(1, 5), box(2, 4)]]);
+    // an island that touches the shore in a corner
+    assert.deepEqual(outside(world, [box(0, 10), hole(1, 5), box(1, 3)]), [[world, box(0, 10)], [hole(1, 5), box(1, 3)]]);
 });
 
 test("the palettes of the legend are those of the pictures", () => {

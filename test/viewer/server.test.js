@@ -178,6 +178,53 @@ test("the border has the values of SQL; tiles say where the mesh is not, and tak
     assert.equal((await plane.get("/api/hull?attribute=depth")).status, 400);
 });
 
+test("regions: their list, the one at a place, and tiles and borders of one alone, as SQL has them", async () => {
+    const shire = await serve("shire"), lake = `O'Hara & "lake"`, named = encodeURIComponent(lake), quoted = "$$" + lake + "$$";
+    try {
+        const { body } = await shire.get("/api/regions");
+        assert.deepEqual(body.map(({ region, number, triangles, area }) => [region, number, String(triangles), area]),
+            psql("SELECT region, number, triangles, area FROM abacus_regions('shire')").split("\n").map((row) => row.split("|")).map(([region, number, triangles, area]) => [region, Number(number), triangles, Number(area)]));
+        assert.deepEqual(body.map(({ region }) => region), [lake, "farm"]);
+        assert.deepEqual((await plane.get("/api/regions")).body, []);
+        for (const [x, y, region] of [[91, 92, lake], [41, 92, "farm"], [3, 92, null]]) {
+            assert.equal((await shire.get(`/api/locate?x=${x}&y=${y}&regions=yes`)).body.region, region);
+            assert.equal((await shire.get(`/api/star?x=${x}&y=${y}&regions=yes`)).body[0].region, region);
+        }
+        for (const kind of ["locate", "star"]) assert.ok(!JSON.stringify((await shire.get(`/api/${kind}?x=91&y=92`)).body).includes("region"));
+        assert.equal((await shire.get(`/api/hull?within=${named}`)).body.length, Number(psql(`SELECT count(*) FROM abacus_hull('shire', within => ${quoted})`)));
+        const bytes = async (path) => Buffer.from(await (await fetch(shire.origin + path)).arrayBuffer());
+        const sql = (call) => Buffer.from(psql(`SELECT encode(${call}, 'hex')`), "hex");
+        const { world } = (await shire.get("/api/info")).body, own = `'shire', 9, 255, 256, world => '{${world}}', attribute => 'height'`, path = (kind, more) => `/tiles/${kind}/9/255/256?${more}`;
+        const colours = "low=0&high=400", range = "range => '{0,400}'";
+        assert.ok((await bytes(path("picture", `${colours}&within=${named}`))).equals(sql(`abacus_tile_picture(${own}, ${range}, within => ${quoted})`)));
+        assert.ok((await bytes(path("picture", `${colours}&regions=yes`))).equals(sql(`abacus_tile_picture(${own}, ${range}, regions => true)`)));
+        assert.ok(!(await bytes(path("picture", colours))).equals(await bytes(path("picture", `${colours}&regions=yes`))));
+        assert.ok((await bytes(path("vector", `within=${named}`))).equals(sql(`abacus_tile_vector(${own}, within => ${quoted})`)));
+        assert.ok((await bytes(path("terrain", `outside=none&within=${named}`))).equals(sql(`abacus_tile_terrain(${own}, fill => -32768, within => ${quoted})`)));
+        const attack = encodeURIComponent("x'); DROP TABLE shire; --");
+        for (const wrong of [path("picture", "regions=1"), path("picture", "regions=true"), path("picture", `regions=${attack}`), path("vector", "within=heath"), path("picture", `within=${attack}`),
+            path("terrain", "within=%00"), "/api/hull?within=heath", `/api/hull?within=${attack}`, "/api/star?x=1&y=1&regions=all", "/api/locate?x=1&y=1&regions=YES"])
+            assert.equal((await shire.get(wrong)).status, 400, wrong);
+        assert.equal((await space.get("/api/regions")).status, 404);
+        // a role that may read the mesh, but not its regions
+        psql("SET client_min_messages = warning; DROP ROLE IF EXISTS regress_regions; CREATE ROLE regress_regions LOGIN; GRANT SELECT ON shire, shire_vertices TO regress_regions");
+        const other = await serve("shire", { dbname: "user=regress_regions" });
+        try {
+            for (const [path, status] of [["/api/regions", 403], ["/api/star?x=91&y=92&regions=yes", 403], [`/api/hull?within=${named}`, 403], ["/api/star?x=91&y=92", 200], ["/api/info", 200]])
+                assert.equal((await other.get(path)).status, status, path);
+            for (const tile of [path("vector", ""), path("picture", "regions=yes"), path("terrain", "")]) assert.equal((await fetch(other.origin + tile)).status, 200, tile);
+        } finally {
+            await other.stop();
+            psql("DROP OWNED BY regress_regions; DROP ROLE regress_regions");
+        }
+        psql(`SELECT abacus_unregion('shire', ${quoted})`);
+        assert.equal((await shire.get(path("vector", `within=${named}`))).status, 400);
+        assert.equal((await shire.get("/api/star?x=91&y=92&regions=yes")).body[0].region, null);
+    } finally {
+        await shire.stop();
+    }
+});
+
 test("functions are those of the extension, whatever else is called so", async () => {
     psql("SET client_min_messages = warning; CREATE SCHEMA nearer; CREATE FUNCTION nearer.abacus_stats(regclass) RETURNS TABLE (name text, value float8) LANGUAGE sql AS $$ SELECT 'dimension', 7 $$");
     const before = process.env.PGOPTIONS;

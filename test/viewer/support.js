@@ -15,10 +15,13 @@ export const psql = (text) =>
     execFileSync("psql", ["-X", "-q", "-A", "-t", "-v", "ON_ERROR_STOP=1", "-c", text], { encoding: "utf8", stdio: ["ignore", "pipe", "pipe"] }).trim();
 
 export function makeMeshes() {
-    psql("SET client_min_messages = warning; DROP TABLE IF EXISTS terrain, globe, rock CASCADE");
+    psql("SET client_min_messages = warning; DROP TABLE IF EXISTS terrain, globe, rock, shire CASCADE");
     psql(`SELECT abacus_triangulate('terrain', 'SELECT 1000 * i + j AS id, 400000 + 30 * i + (i * 7919 + j * 104729) % 13 AS x,
               5200000 + 30 * j + (i * 31 + j * 17) % 11 AS y, 900 + 300 * sin(i / 9.0) * cos(j / 11.0) + i AS height
               FROM generate_series(0, 59) AS i, generate_series(0, 49) AS j')`);
+    psql(`SELECT abacus_triangulate('shire', 'SELECT i * 100 + j AS id, 10 * i + (j % 3) AS x, 10 * j + (i % 3) AS y, i * j AS height FROM generate_series(0, 20) AS i, generate_series(0, 20) AS j');
+          SELECT abacus_constrain('shire', 'VALUES (1, 1, 202), (1, 2, 1802), (1, 3, 1818), (1, 4, 218), (1, 5, 202), (2, 1, 606), (2, 2, 1206), (2, 3, 1212), (2, 4, 612), (2, 5, 606)');
+          SELECT abacus_region('shire', $$VALUES ('farm', 1), ('farm', 2)$$); SELECT abacus_region('shire', $$VALUES ('O''Hara & "lake"', 2)$$)`);
     psql(`SELECT abacus_triangulate('globe', 'SELECT 1000 * i + j AS id, 7 + i / 50.0 + sin(i * 3 + j) / 300 AS lon, 46 + j / 50.0 + cos(i + 5 * j) / 300 AS lat
               FROM generate_series(0, 29) AS i, generate_series(0, 29) AS j')`);
     psql(`SELECT abacus_triangulate('rock', 'SELECT 10000 * i + 100 * j + k AS id, i + sin(j * k) / 4 AS x, j + cos(i * k) / 4 AS y, -k + sin(i + j) / 4 AS z,

@@ -104,6 +104,7 @@ export function describe(found, word, names = [], unit = "") {
     const rows = [["Place", found.place.map(number).join(", ")]];
     if (found.nearest) rows.push(["Nearest vertex", `${found.nearest.vertex}, ${number(found.nearest.distance)} away`]);
     if (!found.simplex) rows.push([capital(word), "none: the place is outside the mesh"]);
+    if (found.region) rows.push(["Region", found.region]);
     for (const [method, value] of Object.entries(found.values)) rows.push([`Value, ${method}`, number(value)]);
     if (!found.simplex) return [...parts, table(rows)];
     const { center, radius } = circumsphere(found.simplex.corners), { ids, values, code } = found.simplex;

@@ -1,7 +1,8 @@
-// What is under the pointer: coordinates, the value there, and the triangle as an outline.
+// What is under the pointer: coordinates, the region and the value there, and the triangle as an outline.
 import { element, made } from "./common.js";
 import { rounded } from "./numbers.js";
 import { attribute, coordinates, line, map, mesh, put } from "./map.js";
+import { withRegion } from "./regions.js";
 import { ask } from "./requests.js";
 
 const least = 7; // pixels of a triangle that is outlined
@@ -27,6 +28,7 @@ function step() {
 function write(place) {
     const words = place.map((x) => rounded(x, step())), column = attribute() ? mesh.attributes.indexOf(attribute()) : -1;
     element("pointer").replaceChildren(made("span", {}, words.join("  ")));
+    if (isWithin(place) && cell.region) element("pointer").append(made("em", {}, cell.region));
     if (!isWithin(place) || column < 0 || !cell.values) return;
     const value = shares(cell.corners, place).reduce((sum, share, i) => sum + share * (cell.values[i]?.[column] ?? NaN), 0);
     const { least: low, greatest: high } = attribute();
@@ -50,7 +52,7 @@ async function read() {
         const place = next;
         next = null;
         try {
-            [cell = null] = await ask("star", { x: place[0], y: place[1] });
+            [cell = null] = await ask("star", { x: place[0], y: place[1], ...withRegion() });
         } catch {
             cell = null; // the next answer says so
         }

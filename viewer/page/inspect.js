@@ -1,6 +1,7 @@
 // The triangle at a place, and walks from it to its neighbours.
 import { answering, centroid, circumsphere, describe, element, offerWalk, say } from "./common.js";
 import { coordinates, map, mesh, named, places, ring, show } from "./map.js";
+import { withRegion } from "./regions.js";
 import { ask } from "./requests.js";
 
 let found = null;
@@ -22,7 +23,7 @@ function draw() {
 }
 
 export async function locate([x, y]) {
-    found = await ask("locate", named({ x, y }));
+    found = await ask("locate", { ...named({ x, y }), ...withRegion() });
     draw();
     say(describe(found, "triangle", mesh.attributes.map((one) => one.name), element("unit").value));
     offerWalk(found, walk);

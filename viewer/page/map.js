@@ -5,6 +5,7 @@ import { Intervals } from "./contours.js";
 import { Coordinates } from "./coordinates.js";
 import { stillThere } from "./editing.js";
 import { greatest, least, setHeights } from "./heights.js";
+import { outside } from "./outside.js";
 import { ask, sessionHeaders } from "./requests.js";
 import { styleOf } from "./style.js";
 
@@ -56,11 +57,15 @@ export const exaggeration = () => Number((usualExaggeration() * 10 ** (Number(el
 
 export const intervals = () => (attribute() && attribute().least !== null && !isEmpty() ? new Intervals(attribute(), meshZoom(), Number(element("interval").value)) : null);
 
+/** The region that is shown alone, if one is. */
+const within = () => (element("within").value ? { within: element("within").value } : {});
+
 function tiles() {
-    const address = (kind, more) => `${location.origin}/tiles/${kind}/{z}/{x}/{y}?${new URLSearchParams({ v: mesh.etag, ...named({}), ...more })}`;
-    const [low, high] = attribute() ? colourRange() : [], heights = new URLSearchParams({ v: mesh.etag, ...named({}) });
+    const common = { v: mesh.etag, ...named({}), ...within() };
+    const address = (kind, more) => `${location.origin}/tiles/${kind}/{z}/{x}/{y}?${new URLSearchParams({ ...common, ...more })}`;
+    const [low, high] = attribute() ? colourRange() : [], heights = new URLSearchParams(common);
     return {
-        picture: address("picture", { edges: "no", ...(devicePixelRatio > 1 && { size: 512 }), ...(attribute() && { ramp: element("ramp").value, low, high }) }),
+        picture: address("picture", { edges: "no", ...(checked("regions") && { regions: "yes" }), ...(devicePixelRatio > 1 && { size: 512 }), ...(attribute() && { ramp: element("ramp").value, low, high }) }),
         vector: address("vector", { ...(checked("contours") && intervals() && { contours: element("interval").value || "auto" }) }),
         terrain: address("terrain", { outside: "none" }),
         shade: `heights://shade/{z}/{x}/{y}?${heights}`,
@@ -81,7 +86,7 @@ function settings() {
         terrain: isReady && hasHeights() && checked("relief") ? exaggeration() : 0,
         shown: Object.fromEntries(["shade", "contours", "edges", "vertices", "lines", "base"].map((id) => [id, checked(id)])),
         shade: { strength: Number(element("shade-strength").value) / 100, from: Number(element("shade-from").value) },
-        intervals: intervals(), edgeZoom: edgeZoom(),
+        isPart: element("within").value !== "", intervals: intervals(), edgeZoom: edgeZoom(),
     };
 }
 const heightRange = () => (attribute() ? [Math.max(attribute().least, least), Math.min(attribute().greatest, greatest)] : [0, 1]);
@@ -155,13 +160,13 @@ const world = [[-180, -85.05], [180, -85.05], [180, 85.05], [-180, 85.05], [-180
 
 /** Everything outside the border, to be covered; and the heights of the border, which go on outside. */
 async function readBorder() {
-    const rows = isEmpty() ? [] : (await ask("hull", named({}))) ?? [], rings = new Map();
+    const rows = isEmpty() ? [] : (await ask("hull", { ...named({}), ...within() })) ?? [], rings = new Map();
     for (const { ring, x, y, value } of rows) {
         if (!rings.has(ring)) rings.set(ring, []);
         rings.get(ring).push([...toMap([x, y]), value]);
     }
     const onMap = [...rings.values()];
-    data.mask = onMap.length ? { type: "FeatureCollection", features: [feature("mask", "Polygon", [world, ...onMap.map((ring) => [...ring, ring[0]].map(([lng, lat]) => [lng, lat]))])] } : undefined;
+    data.mask = onMap.length ? { type: "FeatureCollection", features: [feature("mask", "MultiPolygon", outside(world, onMap.map((ring) => [...ring, ring[0]].map(([lng, lat]) => [lng, lat]))))] } : undefined;
     const hasHeights = attribute() && onMap.every((ring) => ring.every(([, , height]) => height !== null));
     const border = onMap.length && hasHeights ? onMap.map((ring) => ring.map(([lng, lat, height]) => {
         const { x, y } = maplibre.MercatorCoordinate.fromLngLat([lng, lat]);
@@ -172,9 +177,16 @@ async function readBorder() {
     setHeights({ border, range: heightRange(), address: (z, x, y) => terrain.replace("{z}", z).replace("{x}", x).replace("{y}", y) });
 }
 
+/** The region that was shown alone may have gone. */
+async function keepRegion() {
+    const select = element("within");
+    if (select.value && !(await ask("regions")).some(({ region }) => region === select.value)) select.value = "";
+}
+
 /** Reads the mesh again, and draws it. */
 export async function refresh() {
     mesh = await ask("info");
+    await keepRegion();
     await readBorder();
     restyle();
     map.fire("refreshed");

@@ -14,6 +14,7 @@ import { attribute, colourRange, coordinates, exaggeration, fit, intervals, make
 import { measure } from "./measure.js";
 import { editors, forgetMoved } from "./points.js";
 import { profile, setUpProfiles } from "./profile.js";
+import { setUpRegions } from "./regions.js";
 import { sight } from "./sight.js";
 
 // ---- Tools -------------------------------------------------------------------------------------
@@ -107,7 +108,7 @@ async function rangeOfView() {
 const changed = () => (restyle(), write());
 
 function setUpDisplay() {
-    for (const id of ["ramp", "low", "high", "shade", "contours", "interval", "edges", "vertices", "lines", "base"]) element(id).addEventListener("change", changed);
+    for (const id of ["ramp", "low", "high", "shade", "contours", "interval", "edges", "vertices", "lines", "regions", "base"]) element(id).addEventListener("change", changed);
     for (const id of ["shade-strength", "shade-from", "exaggeration"]) element(id).addEventListener("input", changed);
     element("attribute").addEventListener("change", () => answering(async () => (chooseAttribute(), await refresh())));
     element("unit").addEventListener("input", () => {
@@ -163,7 +164,7 @@ chooseAttribute();
 if (mesh.edit) setUpEditing(async () => (forget(), refresh()));
 if (!map.isStyleLoaded()) await map.once("style.load");
 await refresh();
-await setUpFixed();
+await Promise.all([setUpFixed(), setUpRegions()]);
 drawScale(map, coordinates);
 say(mesh.lower[0] === null ? "The mesh has no triangles yet." : first[tool()]);
 map.on("idle", () => element("view").setAttribute("data-ready", "true"));

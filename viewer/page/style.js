@@ -54,12 +54,14 @@ function contours(theme, { shown, intervals }) {
     ];
 }
 
-function meshLayers(theme, { shown, edgeZoom }) {
+function meshLayers(theme, { shown, isPart, edgeZoom }) {
     const fading = (most) => ["interpolate", ["linear"], ["zoom"], edgeZoom - 0.6, 0, edgeZoom + 0.6, most];
     return [
         { id: "edges", type: "line", source: "vector", "source-layer": "triangles", minzoom: Math.max(0, edgeZoom - 0.6), layout: when(shown.edges), paint: { "line-color": theme.ink, "line-width": 0.7, "line-opacity": fading(0.5) } },
         { id: "hull", type: "line", source: "vector", "source-layer": "hull", paint: { "line-color": theme.ink, "line-width": 1, "line-opacity": 0.55 } },
-        ...cased("fixed", "lines", true, theme.fixed, 2).map((layer) => ({ ...layer, layout: { ...layer.layout, ...when(shown.lines) } })),
+        ...cased("fixed", "lines", true, theme.fixed, 2).map((layer) => ({ ...layer, layout: { ...layer.layout, ...when(shown.lines && !isPart) } })),
+        // Of a region alone: tiles leave out those outside.
+        ...cased("fixed-part", "vector", true, theme.fixed, 2).map((layer) => ({ ...layer, "source-layer": "fixed", layout: { ...layer.layout, ...when(shown.lines && isPart) } })),
         { id: "vertices", type: "circle", source: "vector", "source-layer": "vertices", minzoom: Math.max(0, edgeZoom - 0.6), layout: when(shown.vertices), paint: { "circle-radius": 2.2, "circle-color": theme.ink, "circle-stroke-width": 1, "circle-stroke-color": theme.halo } },
     ];
 }

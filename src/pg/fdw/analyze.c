@@ -77,7 +77,7 @@ acquire_sample(Relation table, int level, HeapTuple *sample, int target, double 
 	return count;
 }
 
-/* Whether the mesh still has everything that the table shows. */
+/* Whether the mesh still has everything that the table shows, and the user may read it. */
 static bool
 has_all(const Published *published, Oid user)
 {
@@ -86,7 +86,9 @@ has_all(const Published *published, Oid user)
 	bool		has = true;
 
 	for (int i = 0; i < published->count; i++)
-		has = has && published_has(&published->columns[i], numbering);
+		has = has && published_has(&published->columns[i], numbering) &&
+			(published->columns[i].holds != HOLDS_REGION || reader->header.facts.census.regions == 0 ||
+			 region_names_may_read(published->mesh, user));
 	host_destroy(reader->host);
 	pfree(numbering);
 	return has;
@@ -100,7 +102,7 @@ analyze_table(Relation table, AcquireSampleRowsFunc *acquire, BlockNumber *pages
 	MeshSize	size;
 
 	/*
-	 * A warning skips a table without its mesh, or whose owner may not read it. It also skips a
+	 * A warning skips a table without its mesh, or whose owner may not read it or its regions. It also skips a
 	 * table that shows a dropped attribute: an error would end the ANALYZE of a whole database.
 	 */
 	if (!OidIsValid(published_mesh(table)))

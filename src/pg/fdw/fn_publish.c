@@ -157,6 +157,8 @@ add_columns(Definition *definition, const Publishing *publication, Content conte
 		add_named_columns(definition, ids, dimension + 2, "pg_catalog.int8");
 		add_column(definition, "corners", "pg_catalog.float8[]", "corners", "");
 		add_values(definition, publication);
+		if (publication->names.facts->census.regions > 0)
+			add_column(definition, "region", "pg_catalog.text", "region", "");
 	}
 	else
 	{

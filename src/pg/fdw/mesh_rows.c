@@ -9,6 +9,7 @@
 
 #include <math.h>
 
+#include "utils/builtins.h"
 #include "utils/lsyscache.h"
 #include "utils/memutils.h"
 
@@ -34,6 +35,7 @@ struct MeshRows
 	Nearest    *nearest;		/* or instead of them */
 	uint64		pages;			/* read by earlier scans */
 	Numbering  *numbering;		/* of attributes */
+	RegionNames *regions;		/* if wanted, otherwise NULL */
 	int		   *positions;		/* of the attribute in each wanted column; -1 if none */
 	GeometryMaker **makers;		/* of columns with geometries */
 	int32		srid;			/* of these; SRID_UNKNOWN if they differ, or without geometries */
@@ -117,7 +119,7 @@ srid_of(const MeshRows *rows, GeometryMaker *maker, int number)
 }
 
 static void
-prepare_columns(MeshRows *rows, Relation table)
+prepare_columns(MeshRows *rows, Relation table, Oid user)
 {
 	const Published *published = rows->published;
 	int			geometries = 0;
@@ -145,6 +147,8 @@ prepare_columns(MeshRows *rows, Relation table)
 		rows->wants_values |= column->holds == HOLDS_VALUES || column->holds == HOLDS_ATTRIBUTE ||
 			(column->holds == HOLDS_GEOMETRY && column->number >= 0);
 		rows->wants_labels |= column->holds == HOLDS_LABEL;
+		if (column->holds == HOLDS_REGION && rows->regions == NULL)
+			rows->regions = published_region_names(published, user, &rows->reader->header.facts);
 	}
 }
 
@@ -165,7 +169,7 @@ mesh_rows_open(Relation table, const Published *published, const Bitmapset *want
 	rows->memory = memory;
 	rows->numbering = palloc(sizeof(Numbering));
 	rows->reader = published_open_mesh(published, user, memory, rows->numbering);
-	prepare_columns(rows, table);
+	prepare_columns(rows, table, user);
 	MemoryContextSwitchTo(old);
 	return rows;
 }
@@ -288,6 +292,7 @@ static Datum
 column_value(const MeshRows *rows, MeshRow *row, int at, bool *isnull)
 {
 	const Column *column = &rows->published->columns[at];
+	const char *region;
 	double		value;
 
 	switch (column->holds)
@@ -313,6 +318,10 @@ column_value(const MeshRows *rows, MeshRow *row, int at, bool *isnull)
 		case HOLDS_LABEL:
 			*isnull = isnan(row->labels[column->number]) != 0;
 			return Float8GetDatum(row->labels[column->number]);
+		case HOLDS_REGION:
+			region = region_names_find(rows->regions, row->simplex.region);
+			*isnull = region == NULL;
+			return *isnull ? (Datum) 0 : CStringGetTextDatum(region);
 		case HOLDS_GEOMETRY:
 			return geometry(rows, row, rows->makers[at], rows->positions[at]);
 		case HOLDS_NOTHING:

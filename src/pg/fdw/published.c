@@ -87,6 +87,7 @@ published_holds(const char *word, Column *column)
 		{"x", {HOLDS_COORDINATE, 0}},
 		{"y", {HOLDS_COORDINATE, 1}},
 		{"z", {HOLDS_COORDINATE, 2}},
+		{"region", {HOLDS_REGION, 0}},
 		{"geometry", {HOLDS_GEOMETRY, -1}},
 	};
 	static const struct
@@ -143,6 +144,8 @@ type_of(const Column *column)
 		case HOLDS_ATTRIBUTE:
 		case HOLDS_LABEL:
 			return FLOAT8OID;
+		case HOLDS_REGION:
+			return TEXTOID;
 		default:
 			return postgis_geometry();
 	}
@@ -159,6 +162,7 @@ belongs(const Column *column, Content content)
 		case HOLDS_CORNERS:
 		case HOLDS_VALUES:
 		case HOLDS_LABEL:
+		case HOLDS_REGION:
 			return content == CONTENT_CELLS;
 		case HOLDS_ID:
 		case HOLDS_COORDINATE:
@@ -289,6 +293,21 @@ published_open_mesh(const Published *published, Oid user, MemoryContext memory,
 	SetUserIdAndSecContext(caller, context);
 	host_release(reader->host);
 	return reader;
+}
+
+/* The names of the regions of the mesh, which has been opened, read with the rights of the same user. */
+RegionNames *
+published_region_names(const Published *published, Oid user, const abacus_facts *facts)
+{
+	RegionNames *names;
+	Oid			caller;
+	int			context;
+
+	GetUserIdAndSecContext(&caller, &context);
+	SetUserIdAndSecContext(user, context | SECURITY_LOCAL_USERID_CHANGE);
+	names = region_names_read(published->mesh, facts);
+	SetUserIdAndSecContext(caller, context);
+	return names;
 }
 
 /* A dump does not carry the entry that drops a table with its mesh: see mesh.c. */

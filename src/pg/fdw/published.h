@@ -10,6 +10,7 @@
 
 #include "pg/mesh/numbering.h"
 #include "pg/mesh/reader.h"
+#include "pg/mesh/regions_table.h"
 #include "pg/mesh/shown.h"
 
 #define FDW_NAME "abacus"
@@ -39,6 +40,7 @@ typedef enum Holds
 	HOLDS_COORDINATE,			/* of a point: on axis `number` */
 	HOLDS_ATTRIBUTE,			/* by its permanent `number`: a point's value, a cell's mean */
 	HOLDS_LABEL,				/* of a cell: its label `number` */
+	HOLDS_REGION,				/* of a cell: the name of its region */
 	HOLDS_GEOMETRY				/* with attribute `number` as Z, unless that is negative */
 } Holds;
 
@@ -66,6 +68,7 @@ extern Published *published_read(Relation table);
 extern Oid	published_mesh(Relation table);
 extern Reader *published_open_mesh(const Published *published, Oid user, MemoryContext memory,
 								   Numbering *numbering);
+extern RegionNames *published_region_names(const Published *published, Oid user, const abacus_facts *facts);
 extern void published_bind_restored(Relation mesh);
 
 #endif

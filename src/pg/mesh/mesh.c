@@ -1,17 +1,15 @@
 /*
  * mesh.c: the representation of a mesh in the database.
  *
- * A mesh is an ordinary table of the type abacus_simplex_page together with one of the
- * type abacus_vertex_page. No catalogue of ours lists them: the row type in pg_class
- * says what a table is. An automatic dependency in pg_depend ties the vertex table to
- * its mesh. So either table may be renamed or moved to another schema, and DROP TABLE
- * of the mesh drops both. A dump does not carry that entry. A restored vertex table is
- * found by its name (<mesh>_vertices) until the owner changes the mesh, which writes
- * the entry again.
+ * A mesh is an ordinary table of the type abacus_simplex_page together with one of the type
+ * abacus_vertex_page. No catalogue of ours lists them: the row type in pg_class says what a table is. An
+ * automatic dependency in pg_depend ties the vertex table to its mesh. So either table may be renamed or
+ * moved to another schema, and DROP TABLE of the mesh drops both. A dump lacks that entry.
+ * A restored vertex table is found by its name (<mesh>_vertices) until a change by the owner restores it.
  *
- * A mesh that has had lines has a third table, of the type abacus_line_point, which is
- * bound and found in the same way. Its name ends in _lines. One that has had regions has a fourth, of
- * the type abacus_region_part, whose name ends in _regions.
+ * A mesh that has had lines has a third table, of the type abacus_line_point, which is bound and found
+ * in the same way. Its name ends in _lines. One that has had regions has a fourth, of the type
+ * abacus_region_part, whose name ends in _regions.
  */
 #include "postgres.h"
 
@@ -233,13 +231,28 @@ find_named_table(Oid mesh, const SideTable *side)
 	return relid;
 }
 
+/* The table of a mesh, unlocked and unchecked, and whether it is bound; InvalidOid if there is none. */
+static Oid
+find_side_table(Oid mesh, const SideTable *side, bool *bound)
+{
+	Oid			relid = find_bound_table(RelationRelationId, mesh, false, side->is);
+
+	*bound = OidIsValid(relid);
+	return *bound ? relid : find_named_table(mesh, side);
+}
+
 /* The vertex table of a mesh, unlocked and unchecked; InvalidOid if there is none. */
 Oid
 mesh_find_vertex_table(Oid mesh)
 {
-	Oid			relid = find_bound_table(RelationRelationId, mesh, false, is_vertex_table);
+	return find_side_table(mesh, &vertex_side, &(bool) {false});
+}
 
-	return OidIsValid(relid) ? relid : find_named_table(mesh, &vertex_side);
+/* The same for the table of its regions. */
+Oid
+mesh_find_regions_table(Oid mesh)
+{
+	return find_side_table(mesh, &regions_side, &(bool) {false});
 }
 
 /* The mesh whose simplex table or vertex table this is; InvalidOid if none. */
@@ -315,11 +328,8 @@ mesh_unlock_for_session(MeshLocks *locks)
 static Relation
 open_side_table(Relation mesh, const SideTable *side, MeshAccess access, bool *bound)
 {
-	Oid			relid = find_bound_table(RelationRelationId, RelationGetRelid(mesh), false, side->is);
+	Oid			relid = find_side_table(RelationGetRelid(mesh), side, bound);
 
-	*bound = OidIsValid(relid);
-	if (!*bound)
-		relid = find_named_table(RelationGetRelid(mesh), side);
 	/* it may be dropped while we wait for the lock */
 	return OidIsValid(relid)
 		? try_relation_open(relid, access == MESH_READ ? AccessShareLock : RowExclusiveLock) : NULL;

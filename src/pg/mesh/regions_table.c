@@ -1,14 +1,19 @@
 /*
- * regions_table.c: the table of a mesh's regions, found or made.
+ * regions_table.c: the table of a mesh's regions, found, made and read.
  *
  * A row is an outline or a seed of a region: the name of the region, its number in the pages of the
  * mesh, a number of its own, and the line that is the outline, or the place of the seed.
  */
 #include "postgres.h"
 
+#include "access/table.h"
 #include "catalog/pg_type.h"
 #include "executor/spi.h"
+#include "utils/acl.h"
 #include "utils/builtins.h"
+#include "utils/hsearch.h"
+#include "utils/lsyscache.h"
+#include "utils/rls.h"
 
 #include "pg/mesh/lines_table.h"
 #include "pg/mesh/regions_table.h"
@@ -62,9 +67,9 @@ find(const char *query, MeshAccess access, Oid type, Datum argument, Datum *valu
 	return true;
 }
 
-/* The name of a region with a number, which is in the caller's memory; for messages. */
-char *
-regions_table_region(Relation mesh, MeshAccess access, uint32 number)
+/* The name of a region with a number, which is in the caller's memory; NULL if there is none. */
+static char *
+find_region(Relation mesh, MeshAccess access, uint32 number)
 {
 	char	   *table = regions_table_require(mesh, access);
 	char	   *name = NULL;
@@ -76,7 +81,37 @@ regions_table_region(Relation mesh, MeshAccess access, uint32 number)
 			 access, INT4OID, Int32GetDatum((int32) number), &region))
 		name = MemoryContextStrdup(caller, TextDatumGetCString(region));
 	SPI_finish();
+	return name;
+}
+
+/* The same for messages. */
+char *
+regions_table_region(Relation mesh, MeshAccess access, uint32 number)
+{
+	char	   *name = find_region(mesh, access, number);
+
 	return name != NULL ? name : psprintf("number %u", number);
+}
+
+static void
+complain_of_no_name(Oid mesh, uint32 number)
+{
+	ereport(ERROR,
+			(errcode(ERRCODE_DATA_CORRUPTED),
+			 errmsg("mesh \"%s\" has triangles of region number %u, which has no name",
+					get_rel_name(mesh), number),
+			 errhint("Find all faults with abacus_check().")));
+}
+
+/* The name of the region that triangles with a number are in. */
+char *
+regions_table_name(Relation mesh, MeshAccess access, uint32 number)
+{
+	char	   *name = find_region(mesh, access, number);
+
+	if (name == NULL)
+		complain_of_no_name(RelationGetRelid(mesh), number);
+	return name;
 }
 
 /* The number of the region with a name; an error if there is none. */
@@ -117,4 +152,97 @@ regions_table_refuse_lines(Relation mesh, const char *ids)
 						RelationGetRelationName(mesh),
 						DatumGetInt64(SPI_getbinval(SPI_tuptable->vals[0], SPI_tuptable->tupdesc, 2, &isnull))),
 				 errhint("Remove the region first, with abacus_unregion().")));
+}
+
+/* ---- Names of all regions ---------------------------------------------------------- */
+
+#define ROWS_A_FETCH 1024
+
+typedef struct RegionName
+{
+	uint32		number;			/* the key */
+	char	   *name;
+} RegionName;
+
+struct RegionNames
+{
+	Oid			mesh;
+	HTAB	   *names;
+};
+
+/* Whether a user may read the names; nothing is locked. */
+bool
+region_names_may_read(Oid mesh, Oid user)
+{
+	Oid			table = mesh_find_regions_table(mesh);
+
+	return OidIsValid(table) && pg_class_aclcheck(table, user, ACL_SELECT) == ACLCHECK_OK &&
+		check_enable_rls(table, user, true) != RLS_ENABLED;
+}
+
+static void
+add_rows(HTAB *names, MemoryContext memory)
+{
+	for (uint64 i = 0; i < SPI_processed; i++)
+	{
+		bool		isnull;
+		bool		found;
+		uint32		number = (uint32) DatumGetInt32(SPI_getbinval(SPI_tuptable->vals[i],
+																  SPI_tuptable->tupdesc, 1, &isnull));
+		RegionName *name = hash_search(names, &number, HASH_ENTER, &found);
+
+		name->name = MemoryContextStrdup(memory, SPI_getvalue(SPI_tuptable->vals[i],
+															  SPI_tuptable->tupdesc, 2));
+	}
+}
+
+/*
+ * Reads the names once, into the current memory context, under the active snapshot, as the pages are. The mesh
+ * is locked. A mesh without regions has none, and needs no privilege.
+ */
+RegionNames *
+region_names_read(Oid mesh, const abacus_facts *facts)
+{
+	RegionNames *names = palloc0(sizeof(RegionNames));
+	HASHCTL		control = {
+		.keysize = sizeof(uint32),.entrysize = sizeof(RegionName),.hcxt = CurrentMemoryContext
+	};
+	SPIParseOpenOptions options = {.cursorOptions = CURSOR_OPT_NO_SCROLL,.read_only = true};
+	Relation	heap;
+	Portal		portal;
+	char	   *table;
+
+	names->mesh = mesh;
+	if (facts->census.regions == 0)
+		return names;
+	heap = table_open(mesh, NoLock);
+	table = regions_table_require(heap, MESH_READ);
+	table_close(heap, NoLock);
+	names->names = hash_create("Abacus names of regions", 64, &control,
+							   HASH_ELEM | HASH_BLOBS | HASH_CONTEXT);
+	SPI_connect();
+	portal = SPI_cursor_parse_open(NULL, psprintf("SELECT DISTINCT number, region FROM %s", table), &options);
+	do
+	{
+		SPI_cursor_fetch(portal, true, ROWS_A_FETCH);
+		add_rows(names->names, control.hcxt);
+		SPI_freetuptable(SPI_tuptable);
+	} while (SPI_processed > 0);
+	SPI_cursor_close(portal);
+	SPI_finish();
+	return names;
+}
+
+/* The name of the region with a number; NULL for 0, which is none. */
+const char *
+region_names_find(const RegionNames *names, uint32 number)
+{
+	const RegionName *name;
+
+	if (number == 0)
+		return NULL;
+	name = names->names == NULL ? NULL : hash_search(names->names, &number, HASH_FIND, NULL);
+	if (name == NULL)
+		complain_of_no_name(names->mesh, number);
+	return name->name;
 }

@@ -25,9 +25,6 @@ public:
 
     void enter(const PageView<D> &page) { values_.enter(page); }
 
-    /// Null: there is none.
-    const Polygon *polygon() const { return polygon_of(extent_); }
-
 protected:
     MeshView(const Host &host, const abacus_facts &facts, const abacus_drawing &drawing)
         : label_(drawing.attribute - static_cast<int>(facts.columns.attributes)),
@@ -40,6 +37,8 @@ protected:
         if (label_ >= 0)
             std::fill_n(patch.value, patch.corners, labels_.of_page(page, simplex)[label_]);
     }
+    /// Null: there is none.
+    const Polygon *polygon() const { return polygon_of(extent_); }
     /// Whether the drawing has the simplex with these first `n` corners.
     bool is_shown(const PageView<D> &page, int simplex, int n) const {
         return is_in<D>(extent_, page, simplex, n);
@@ -51,6 +50,11 @@ private:
     PageValues<D> values_;
     abacus_extent extent_;
 };
+
+void put(const Point<2> &place, Patch &patch, int corner) {
+    patch.corner[corner][0] = place[0];
+    patch.corner[corner][1] = place[1];
+}
 
 /// The triangles of a mesh.
 class FlatView : public MeshView<2> {
@@ -68,6 +72,7 @@ public:
             patch.value[i] = value(v);
         }
         set_label(page, simplex, patch);
+        set_fixed(page.fixed(simplex), patch);
         return true;
     }
     /// Calls visit(patch) for the parts of a simplex in the polygon, if there is one.
@@ -95,21 +100,19 @@ public:
             });
         });
     }
-    /// Calls visit(patch) for parts of the polygon, which have no values.
-    template <class Visit> void each_part(Visit visit) const {
-        polygon()->each_part(polygon()->box(), [&](const Polygon::Trapezoid &part) {
-            Patch patch{};
-            patch.corners = 4;
-            for (int i = 0; i < 4; ++i) put(patch, i, part.corner(i));
-            visit(patch);
-        });
-    }
 
 private:
     void put(Patch &patch, int corner, const Point<2> &place) const {
-        const Point<2> p = plane_.project(place);
-        patch.corner[corner][0] = p[0];
-        patch.corner[corner][1] = p[1];
+        abacus::put(plane_.project(place), patch, corner);
+    }
+    static void set_fixed(const FixedFacets<2> &fixed, Patch &patch) {
+        patch.region = fixed.region();
+        for (int i = 0; i < 3; ++i) { // opposite of corner i; it ends two further
+            const Fixed kind = fixed[i];
+            patch.edge[(i + 2) % 3] = kind == Fixed::hard   ? Patch::Edge::hard
+                                      : kind == Fixed::soft ? Patch::Edge::soft
+                                                            : Patch::Edge::free;
+        }
     }
 
     // a tile has a plane of its own; other drawings use coordinates
@@ -223,9 +226,6 @@ void stream(RangeScan<D> &pages, View &view, Picture &picture) {
             else if (view.show(page, s, patch))
                 picture.add(patch);
     }
-    if constexpr (D == 2 && std::is_same_v<Picture, Canvas>)
-        if (view.polygon() != nullptr)
-            picture.leave_only([&](const auto &keep) { view.each_part(keep); });
 }
 
 /// `region` is the part that the drawing shows with its margin; null: the whole mesh.
@@ -237,8 +237,18 @@ Portrait draw(const Host &host, const abacus_facts &facts, const abacus_drawing 
     const auto show = [&](auto &picture) {
         if (std::exchange(again, true)) pages.rewind();
         stream(pages, view, picture);
+        if constexpr (D == 2 && std::is_same_v<decltype(picture), Canvas &>)
+            leave_polygon(drawing, picture);
     };
     return draw_patches(host, facts, drawing, margin, usual, View::unit, show);
+}
+
+/// What a drawing with a window shows with its margin.
+BoxRegion<2> shown(const abacus_drawing &drawing, std::int32_t margin) {
+    const abacus_drawing wider = widened(drawing, margin);
+    const MapPlane plane(drawing.is_geographic != 0);
+    return BoxRegion<2>(plane.unproject(
+        Box<2>({wider.lower[0], wider.lower[1]}, {wider.upper[0], wider.upper[1]})));
 }
 
 } // namespace
@@ -252,12 +262,39 @@ Portrait draw_mesh(const Host &host, const abacus_facts &facts, const abacus_dra
                        FlatView(host, facts, drawing), ABACUS_RAMP_TERRAIN);
     }
     const std::int32_t margin = Canvas::margin_of(drawing);
-    const abacus_drawing wider = widened(drawing, margin);
-    const MapPlane plane(drawing.is_geographic != 0);
-    const BoxRegion<2> region(plane.unproject(
-        Box<2>({wider.lower[0], wider.lower[1]}, {wider.upper[0], wider.upper[1]})));
+    const BoxRegion<2> region = shown(drawing, margin);
     return draw<2>(host, facts, drawing, margin, &region, FlatView(host, facts, drawing),
                    ABACUS_RAMP_TERRAIN);
+}
+
+void leave_polygon(const abacus_drawing &drawing, Canvas &canvas) {
+    const Polygon *polygon = polygon_of(drawing.extent);
+    if (polygon == nullptr) return;
+    const MapPlane plane(drawing.is_geographic != 0);
+    canvas.leave_only([&](const auto &keep) {
+        polygon->each_part(polygon->box(), [&](const Polygon::Trapezoid &part) {
+            Patch patch{};
+            patch.corners = 4;
+            for (int i = 0; i < 4; ++i) put(plane.project(part.corner(i)), patch, i);
+            keep(patch);
+        });
+    });
+}
+
+void draw_fixed_edges(const Host &host, const abacus_facts &facts, const abacus_drawing &drawing,
+                      Canvas &canvas) {
+    if (facts.census.lines == 0 || (drawing.lines == 0 && drawing.regions == 0)) return;
+    abacus_drawing edges = drawing;
+    edges.attribute = -1;
+    const BoxRegion<2> region = shown(drawing, Canvas::margin_of(drawing));
+    RangeScan<2> pages(host, facts, &region, pages_in<2>(drawing.extent));
+    FlatView view(host, facts, edges);
+    Patch patch;
+    while (pages.advance()) {
+        const PageView<2> &page = pages.page();
+        for (int s = 0; page.is_lined() && s < page.simplices(); ++s)
+            if (page.fixed(s).count() > 0 && view.show(page, s, patch)) canvas.add_edges(patch);
+    }
 }
 
 Portrait draw_section(const Host &host, const abacus_facts &facts, const abacus_section &section,

@@ -14,7 +14,15 @@ namespace abacus {
 /// drawing makes no sense for the mesh.
 Portrait draw_mesh(const Host &host, const abacus_facts &facts, const abacus_drawing &drawing);
 
-/// The same of a plane section of a mesh of dimension 3.
+/// Adds the fixed edges and the borders of regions in the window of a drawing to its canvas, if it
+/// wants them; what they go through is there.
+void draw_fixed_edges(const Host &host, const abacus_facts &facts, const abacus_drawing &drawing,
+                      Canvas &canvas);
+
+/// Leaves only what is in the polygon of the drawing's extent, if it has one.
+void leave_polygon(const abacus_drawing &drawing, Canvas &canvas);
+
+/// The picture of a plane section of a mesh of dimension 3.
 Portrait draw_section(const Host &host, const abacus_facts &facts, const abacus_section &section,
                       const abacus_drawing &drawing);
 

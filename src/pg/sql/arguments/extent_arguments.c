@@ -32,7 +32,7 @@ extent_max_edge(FunctionCallInfo fcinfo, int argument)
 
 /* ---- within ---------------------------------------------------------------------------- */
 
-/* The region that was asked for last. A stamp stands for one state of one mesh, and never repeats. */
+/* The region that was found last. A stamp stands for one state of one mesh, and never repeats. */
 typedef struct LastRegion
 {
 	Oid			user;			/* who may read the table of regions */
@@ -106,6 +106,24 @@ extent_within(FunctionCallInfo fcinfo, int argument, Oid mesh, const abacus_fact
 		extent->area = area_open(given, &facts->form, get_rel_name(mesh), owner->home);
 	else
 		extent->area = area_remembered(given, &facts->form, get_rel_name(mesh));
+}
+
+/*
+ * The name of the region with a number, valid until the next call; it is remembered as well.
+ */
+const char *
+extent_region_name(Oid mesh, const abacus_header *header, uint32 number)
+{
+	Relation	heap;
+	char	   *name;
+
+	if (last.stamp == header->stamp && last.mesh == mesh && last.user == GetUserId() && last.number == number)
+		return last.name;
+	heap = table_open(mesh, NoLock);	/* locked since the mesh was got */
+	name = regions_table_name(heap, MESH_READ, number);
+	table_close(heap, NoLock);
+	remember(mesh, header->stamp, name, number);
+	return last.name;
 }
 
 /* Both arguments. */

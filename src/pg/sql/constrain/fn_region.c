@@ -1,6 +1,6 @@
 /*
- * fn_region.c: abacus_region, which gives a mesh regions, abacus_unregion, which takes one away, and
- * abacus_regions, which lists them.
+ * fn_region.c: abacus_region, which gives a mesh regions, abacus_unregion, which takes one away,
+ * abacus_region_at, which says in which one a place is, and abacus_regions, which lists them.
  */
 #include "postgres.h"
 
@@ -12,10 +12,13 @@
 #include "pg/lines/new_regions.h"
 #include "pg/mesh/regions_table.h"
 #include "pg/port/port.h"
+#include "pg/sql/arguments/extent_arguments.h"
+#include "pg/sql/arguments/place.h"
 #include "pg/sql/constrain/regions_fault.h"
 
 SQL_FUNCTION(abacus_sql_region);
 SQL_FUNCTION(abacus_sql_unregion);
+SQL_FUNCTION(abacus_sql_region_at);
 SQL_FUNCTION(abacus_sql_regions);
 
 /* Columns of abacus_regions. */
@@ -59,6 +62,26 @@ abacus_sql_unregion(PG_FUNCTION_ARGS)
 	new_regions_remove(change, text_to_cstring(PG_GETARG_TEXT_PP(1)));
 	change_end(change);
 	PG_RETURN_VOID();
+}
+
+/* ---- abacus_region_at ------------------------------------------------------------------ */
+
+/* abacus_region_at(mesh regclass, x float8, y float8) -> text */
+Datum
+abacus_sql_region_at(PG_FUNCTION_ARGS)
+{
+	double		place[ABACUS_MAX_DIMENSION];
+	CachedMesh *cached = mesh_cache_get(PG_GETARG_OID(0));
+	abacus_simplex simplex;
+	abacus_status status;
+
+	if (!place_arguments(fcinfo, PG_NARGS() - 1, &cached->header.facts.form, place))
+		PG_RETURN_NULL();
+	status = host_run(cached->host, abacus_mesh_locate, cached->mesh, place, &simplex);
+	host_release(cached->host);
+	if (status == ABACUS_END || simplex.region == 0)
+		PG_RETURN_NULL();
+	PG_RETURN_TEXT_P(cstring_to_text(extent_region_name(PG_GETARG_OID(0), &cached->header, simplex.region)));
 }
 
 /* ---- abacus_regions -------------------------------------------------------------------- */

@@ -106,6 +106,21 @@ drawing_contours(FunctionCallInfo fcinfo, int argument, abacus_drawing *drawing)
 		drawing->contour_interval = drawing_interval(fcinfo, argument);
 }
 
+/* Whether an argument is true. */
+bool
+drawing_flag(FunctionCallInfo fcinfo, int argument)
+{
+	return !PG_ARGISNULL(argument) && PG_GETARG_BOOL(argument);
+}
+
+/* Whether regions and fixed edges are drawn. */
+void
+drawing_overlay(FunctionCallInfo fcinfo, int regions, int lines, abacus_drawing *drawing)
+{
+	drawing->regions = drawing_flag(fcinfo, regions);
+	drawing->lines = drawing_flag(fcinfo, lines);
+}
+
 /* Ends the reading; converts the picture to a bytea. */
 bytea *
 drawing_finish(Host *host, const abacus_picture *picture)

@@ -19,6 +19,8 @@ extern abacus_ramp drawing_ramp_argument(FunctionCallInfo fcinfo, int argument);
 extern void drawing_ramp(FunctionCallInfo fcinfo, int argument, abacus_drawing *drawing);
 extern double drawing_interval(FunctionCallInfo fcinfo, int argument);
 extern void drawing_contours(FunctionCallInfo fcinfo, int argument, abacus_drawing *drawing);
+extern bool drawing_flag(FunctionCallInfo fcinfo, int argument);
+extern void drawing_overlay(FunctionCallInfo fcinfo, int regions, int lines, abacus_drawing *drawing);
 extern bytea *drawing_finish(Host *host, const abacus_picture *picture);
 
 #endif

@@ -51,7 +51,9 @@ enum
 	DRAW_RANGE,
 	DRAW_STYLE,
 	DRAW_LIGHT = DRAW_STYLE + STYLE_ARGUMENTS,
-	DRAW_WITHIN
+	DRAW_WITHIN,
+	DRAW_REGIONS,
+	DRAW_LINES
 };
 
 /* Arguments of abacus_draw_section */
@@ -102,12 +104,6 @@ caption(FunctionCallInfo fcinfo, int argument)
 	return pg_server_to_any(given, (int) strlen(given), PG_UTF8);
 }
 
-static bool
-is_true(FunctionCallInfo fcinfo, int argument)
-{
-	return !PG_ARGISNULL(argument) && PG_GETARG_BOOL(argument);
-}
-
 /* Colours, lines and captions: the arguments from `first` on. */
 static void
 style(FunctionCallInfo fcinfo, int first, abacus_drawing *drawing)
@@ -117,7 +113,7 @@ style(FunctionCallInfo fcinfo, int first, abacus_drawing *drawing)
 	if (drawing_is_given(fcinfo, first + STYLE_LEGEND, "legend", drawing))
 		drawing->legend = caption(fcinfo, first + STYLE_LEGEND);
 	drawing->scale_bar = caption(fcinfo, first + STYLE_SCALE_BAR);
-	drawing->transparent = is_true(fcinfo, first + STYLE_TRANSPARENT);
+	drawing->transparent = drawing_flag(fcinfo, first + STYLE_TRANSPARENT);
 }
 
 /* The direction of the light, if given. */
@@ -134,6 +130,17 @@ light(FunctionCallInfo fcinfo, int argument, abacus_drawing *drawing)
 				 errhint("The direction is counted clockwise from north: {315,45} is in the north-west, halfway up.")));
 	if (drawing->attribute < 0 || drawing->exaggeration == 0)
 		ereport(NOTICE, (errmsg("light has no effect without exaggeration")));
+}
+
+/* Regions and fixed edges; a notice if there are none. An octree has none. */
+static void
+overlay(FunctionCallInfo fcinfo, const abacus_census *census, abacus_drawing *drawing)
+{
+	drawing_overlay(fcinfo, DRAW_REGIONS, DRAW_LINES, drawing);
+	if (drawing->regions && census->regions == 0)
+		ereport(NOTICE, (errmsg("regions has no effect without regions")));
+	if (drawing->lines && census->lines == 0)
+		ereport(NOTICE, (errmsg("lines has no effect without lines")));
 }
 
 /* Opens a mesh or an octree for drawing. */
@@ -208,7 +215,8 @@ tell_blank(const Reader *reader, const abacus_drawing *drawing, const char *cell
  * abacus_draw(mesh regclass, width int, height int, lower float8[],
  * upper float8[], attribute text, edges boolean, exaggeration float8,
  * max_edge float8, range float8[], ramp text, contours float8, legend text,
- * scale_bar text, transparent boolean, light float8[], within text) -> bytea
+ * scale_bar text, transparent boolean, light float8[], within text,
+ * regions boolean, lines boolean) -> bytea
  */
 Datum
 abacus_sql_draw(PG_FUNCTION_ARGS)
@@ -234,6 +242,7 @@ abacus_sql_draw(PG_FUNCTION_ARGS)
 	style(fcinfo, DRAW_STYLE, &drawing);
 	leave_contours_out(&reader->header.facts, &drawing);
 	light(fcinfo, DRAW_LIGHT, &drawing);
+	overlay(fcinfo, &reader->header.facts.census, &drawing);
 	if (drawing.exaggeration > 0 && drawing.attribute < 0)
 		ereport(NOTICE, (errmsg("exaggeration has no effect without an attribute")));
 	else if (drawing.exaggeration > 0)
@@ -367,7 +376,7 @@ abacus_sql_draw_volume(PG_FUNCTION_ARGS)
 	if (!PG_ARGISNULL(VOLUME_RAMP))
 		drawing.ramp = drawing_ramp_argument(fcinfo, VOLUME_RAMP);
 	drawing.legend = caption(fcinfo, VOLUME_LEGEND);
-	drawing.transparent = is_true(fcinfo, VOLUME_TRANSPARENT);
+	drawing.transparent = drawing_flag(fcinfo, VOLUME_TRANSPARENT);
 	window(&reader->header.facts.form, array(fcinfo, VOLUME_LOWER), array(fcinfo, VOLUME_UPPER), &drawing);
 
 	progress_begin(&host->progress, PG_GETARG_OID(VOLUME_MESH));

@@ -6,12 +6,17 @@
 
 #include <math.h>
 
+#include "mb/pg_wchar.h"
+#include "miscadmin.h"
 #include "utils/builtins.h"
+#include "utils/lsyscache.h"
 
 #include "abacus/tile.h"
 #include "pg/base/settings.h"
 #include "pg/base/sql_function.h"
+#include "pg/host/guard.h"
 #include "pg/mesh/reader.h"
+#include "pg/mesh/regions_table.h"
 #include "pg/mesh/shape.h"
 #include "pg/sql/arguments/attribute.h"
 #include "pg/sql/arguments/extent_arguments.h"
@@ -45,7 +50,9 @@ enum
 	PICTURE_MAX_EDGE,
 	PICTURE_RAMP,
 	PICTURE_CONTOURS,
-	PICTURE_WITHIN
+	PICTURE_WITHIN,
+	PICTURE_REGIONS,
+	PICTURE_LINES
 };
 
 /* ... of abacus_tile_vector */
@@ -179,7 +186,7 @@ tile_attribute(FunctionCallInfo fcinfo, int argument, abacus_names names)
  * abacus_tile_picture(mesh regclass, z int, x int, y int, srid int,
  * world float8[], size int,
  * attribute text, range float8[], edges boolean, exaggeration float8,
- * max_edge float8, ramp text, contours float8, within text) -> bytea
+ * max_edge float8, ramp text, contours float8, within text, regions boolean, lines boolean) -> bytea
  */
 Datum
 abacus_sql_tile_picture(PG_FUNCTION_ARGS)
@@ -203,10 +210,50 @@ abacus_sql_tile_picture(PG_FUNCTION_ARGS)
 					 &drawing.extent);
 	drawing_ramp(fcinfo, PICTURE_RAMP, &drawing);
 	drawing_contours(fcinfo, PICTURE_CONTOURS, &drawing);
+	drawing_overlay(fcinfo, PICTURE_REGIONS, PICTURE_LINES, &drawing);
 	drawing.transparent = true;
 	host_run(host, abacus_tile_picture, &host->table, &reader->header.facts, &tile, &drawing, &memory,
 			 &picture);
 	PG_RETURN_BYTEA_P(drawing_finish(host, &picture));
+}
+
+/* The names of regions for the core. */
+typedef struct TileNames
+{
+	Host	   *host;
+	RegionNames *regions;
+} TileNames;
+
+/*
+ * Reads them; NULL if there are none. Who may read the mesh gets its tiles, but without names that he may
+ * not read.
+ */
+static RegionNames *
+read_names(Oid mesh, const abacus_facts *facts)
+{
+	if (facts->census.regions == 0)
+		return NULL;
+	if (region_names_may_read(mesh, GetUserId()))
+		return region_names_read(mesh, facts);
+	ereport(NOTICE,
+			(errmsg("triangles have no names of regions, which user \"%s\" may not read",
+					GetUserNameFromId(GetUserId(), false)),
+			 errhint("Grant SELECT on the table of regions of mesh \"%s\".", get_rel_name(mesh))));
+	return NULL;
+}
+
+/* Called by the core. */
+static abacus_host_status
+find_name(void *context, uint32_t region, const char **name)
+{
+	TileNames  *names = context;
+	const char *found;
+
+	GUARD_BEGIN();
+	found = region_names_find(names->regions, region);
+	*name = pg_server_to_any(found, (int) strlen(found), PG_UTF8);
+	GUARD_END(names->host);
+	return ABACUS_HOST_OK;
 }
 
 /*
@@ -220,6 +267,8 @@ abacus_sql_tile_vector(PG_FUNCTION_ARGS)
 	abacus_tile tile;
 	abacus_tile_memory memory;
 	abacus_tile_vector_kind kind = {0};
+	TileNames	names;
+	const abacus_region_names by_number = {find_name, &names};
 	abacus_picture bytes = {0};
 	Reader	   *reader = tile_begin(fcinfo, &tile, &memory);
 	Host	   *host;
@@ -231,8 +280,10 @@ abacus_sql_tile_vector(PG_FUNCTION_ARGS)
 	kind.contour_interval = drawing_interval(fcinfo, VECTOR_CONTOURS);
 	extent_arguments(fcinfo, VECTOR_MAX_EDGE, VECTOR_WITHIN, PG_GETARG_OID(TILE_MESH), &reader->header, reader->host,
 					 &kind.extent);
-	host_run(host, abacus_tile_vector, &host->table, &reader->header.facts, &tile, &kind, &memory,
-			 &bytes);
+	names.host = host;
+	names.regions = read_names(PG_GETARG_OID(TILE_MESH), &reader->header.facts);
+	host_run(host, abacus_tile_vector, &host->table, &reader->header.facts, &tile, &kind,
+			 names.regions == NULL ? NULL : &by_number, &memory, &bytes);
 	PG_RETURN_BYTEA_P(drawing_finish(host, &bytes));
 }
 

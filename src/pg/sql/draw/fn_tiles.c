@@ -212,10 +212,10 @@ make_all(const Tiles *tiles, bool has_attribute)
 							tiles->max_edge, ramp, contours, tiles->within),
 				   "{\"content_type\": \"image/png\", \"description\": \"A mesh as pictures\"}");
 	make_with_etag(tiles, "vector", vector_body(tiles, contours),
-				   "{\"content_type\": \"application/x-protobuf\", \"description\": \"A mesh: triangles, vertices, contours, hull\"}");
+				   "{\"content_type\": \"application/x-protobuf\", \"description\": \"A mesh: triangles, vertices, contours, fixed, hull\"}");
 	make(tiles, "mvt", "double precision",
 		 psprintf("contours double precision DEFAULT %s", tiles->contours), "bytea",
-		 vector_body(tiles, "contours"), "A mesh: triangles, vertices, contours, hull");
+		 vector_body(tiles, "contours"), "A mesh: triangles, vertices, contours, fixed, hull");
 	if (has_attribute)
 		make_with_etag(tiles, "terrain",
 					   psprintf("%s.abacus_tile_terrain(%s, z, x, y, %s, %s, %d, %s, %s, %s, %s)",
