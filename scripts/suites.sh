@@ -132,7 +132,7 @@ viewer_tests() {
             test/viewer/${1:-*}.test.js
 }
 
-# The examples of pages, each page in a database of its own, and the pictures of the guide; pages that need
+# The examples of pages, each page in a database of its own, and the pictures of the guide and of breaklines; pages that need
 # PostGIS only if it is installed.
 documentation_examples() {
     if (($#)); then
@@ -141,7 +141,7 @@ documentation_examples() {
     fi
     local pages=() page postgis
     postgis=$("$PG_CONFIG" --sharedir)/extension/postgis.control
-    for page in README.md docs/guide.md docs/cookbook/*.md docs/reference/*.md docs/{relations,lab,operations,upkeep,postgis}.md; do
+    for page in README.md docs/guide.md docs/cookbook/*.md docs/reference/*.md docs/{breaklines,relations,lab,operations,upkeep,postgis}.md; do
         if [[ -e $postgis ]] || ! grep -q '^CREATE EXTENSION.* abacus_postgis' "$page"; then pages+=("$page"); fi
     done
     scripts/doc_examples.py "${pages[@]}" && scripts/guide_pictures.py --check
