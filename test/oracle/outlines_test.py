@@ -14,6 +14,11 @@ EXTENT = 8192
 SETTINGS = [((1, "off", 1), (3, "on", 64)), ((2, "on", 1), (1, "off", 64)), ((3, "on", 1), (2, "off", 1))]
 
 
+def segments_of(line):
+    """Segments of a line whatever their direction. Lines that have the same ones count once in a region."""
+    return tuple(sorted(tuple(sorted(pair)) for pair in zip(line, line[1:])))
+
+
 def odd_edges(triangles):
     """Sides of triangles that come an odd number of times, the lesser end first."""
     sides = numpy.sort(triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
@@ -66,10 +71,15 @@ class Ground:
         """Rings around four random parts of these triangles: what is inside of an odd number of them is inside."""
         random = self.random
         rings = [ring for _ in range(4) for ring in rings_of(odd_edges(triangles[random.random(len(triangles)) < 0.5]), random)]
-        given = []
+        given, known = [], set()
         for ring in rings:
             cut = int(random.integers(1, len(ring) - 1))
-            given += [ring[:cut + 1], ring[cut:]] if random.random() < 0.3 else [ring]
+            parts = [ring[:cut + 1], ring[cut:]]
+            # a part that is given twice would count once, and leave a ring open
+            if random.random() < 0.7 or known & set(map(segments_of, parts)):
+                parts = [ring]
+            given += parts
+            known |= set(map(segments_of, parts))
         # the first one again, the other way round, and from another corner if it is closed
         again = given[0][::-1]
         given.append(again[1:] + [again[1]] if again[0] == again[-1] else again)
@@ -80,11 +90,7 @@ class Ground:
         """Sides of outlines by region, each line once, with those of equal segments."""
         result = []
         for region, lines in self.regions.items():
-            different = {}
-            for line in lines:
-                segments = sorted(tuple(sorted(pair)) for pair in zip(self.lines[line], self.lines[line][1:]))
-                different[tuple(segments)] = segments
-            result += [(region, a, b) for segments in different.values() for a, b in segments]
+            result += [(region, a, b) for segments in {segments_of(self.lines[line]) for line in lines} for a, b in segments]
         return result
 
 
