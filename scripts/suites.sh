@@ -162,5 +162,6 @@ oracle_tests() {
 
 # Those that have more points and more settings to compare.
 large_oracle_tests() {
-    ABACUS_LARGE=1 oracle_tests constrained_test.py && ABACUS_LARGE=1 oracle_tests crossing_lines_test.py
+    local name
+    for name in constrained crossing_lines outlines; do ABACUS_LARGE=1 oracle_tests "${name}_test.py" || return; done
 }
