@@ -1,10 +1,11 @@
 #!/usr/bin/python3
-"""Draws the pictures of docs/guide.md, each from a mesh that it makes and asks.
+"""Draws the pictures of docs/guide.md and docs/breaklines.md, each from a mesh that it makes and asks.
 
-    guide_pictures.py            writes docs/images/guide_*.svg
+    guide_pictures.py            writes docs/images/guide_*.svg and breaklines_*.svg
     guide_pictures.py --check    says which of them differ from what it draws; writes nothing
 
-It works in a scratch database of the server that the environment names.
+It works in a scratch database of the server that the environment names. The examples of docs/breaklines.md make the
+meshes of its pictures, which are left out if PostGIS is not installed.
 """
 import json
 import math
@@ -12,7 +13,9 @@ import pathlib
 import subprocess
 import sys
 
-IMAGES = pathlib.Path(__file__).resolve().parents[1] / "docs/images"
+from doc_examples import BLOCK
+
+DOCS = pathlib.Path(__file__).resolve().parents[1] / "docs"
 DATABASE = "abacus_guide_pictures"
 SETUP = """
 CREATE EXTENSION abacus;
@@ -24,12 +27,13 @@ SELECT abacus_triangulate('field', 'SELECT i, (i * 0.7548776662466927) % 1 * 4, 
 """
 SCALE = 100
 MARGIN = 40
-BLUE, RED, GREY, GREEN = "#2563a8", "#c0392b", "#8a8f98", "#2e8b57"
+BLUE, RED, GREY, GREEN, PURPLE = "#2563a8", "#c0392b", "#8a8f98", "#2e8b57", "#7d3c98"
+REGIONS = {"lake": "#cfe3f5", "road": "#d9d9d9", "building": "#e6d0ad"}
 
 
-def psql(database, *arguments, script=None):
+def psql(database, *arguments, script=None, stderr=None):
     result = subprocess.run(["psql", "-X", "-q", "-A", "-t", "-v", "ON_ERROR_STOP=1", "-d", database, *arguments],
-                            input=script, stdout=subprocess.PIPE, text=True, check=True)
+                            input=script, stdout=subprocess.PIPE, stderr=stderr, text=True, check=True)
     return result.stdout
 
 
@@ -43,20 +47,29 @@ def number(value):
 
 
 class Picture:
-    """An SVG in which y grows upwards, over a mesh from (0, 0) to (4, 3)."""
+    """An SVG in which y grows upwards, over a mesh from (0, 0) to (width, height)."""
 
-    def __init__(self, title):
+    def __init__(self, title, width=4, height=3, scale=SCALE):
         self.title = title
-        self.size = 4 * SCALE + 2 * MARGIN, 3 * SCALE + 2 * MARGIN
-        self.top = 3 * SCALE + MARGIN
+        self.scale = scale
+        self.size = width * scale + 2 * MARGIN, height * scale + 2 * MARGIN
+        self.left, self.top = MARGIN, height * scale + MARGIN
         self.parts = []
 
+    def origin(self, x, y):
+        """What is drawn from now on is moved by this much."""
+        self.left, self.top = MARGIN + x * self.scale, self.size[1] - MARGIN - y * self.scale
+
     def at(self, x, y):
-        return x * SCALE + MARGIN, self.top - y * SCALE
+        return x * self.scale + self.left, self.top - y * self.scale
 
     def path(self, places, closed=False, **style):
-        steps = " L".join(",".join(map(number, self.at(*place))) for place in places)
-        self.add("path", d=f"M{steps}{'Z' if closed else ''}", **style)
+        self.paths([places], closed, **style)
+
+    def paths(self, lines, closed=False, **style):
+        """Lines as one path, in which rings within rings are holes."""
+        steps = (" L".join(",".join(map(number, self.at(*place))) for place in line) + ("Z" if closed else "") for line in lines)
+        self.add("path", d="M" + " M".join(steps), **style)
 
     def add(self, name, text=None, **attributes):
         written = " ".join(f'{key.replace("_", "-")}="{value}"' for key, value in attributes.items())
@@ -189,15 +202,81 @@ def voronoi():
     return picture
 
 
+def example(heading, everything_before=False):
+    """The SQL of docs/breaklines.md up to a heading, or the first block below it."""
+    before, after = (DOCS / "breaklines.md").read_text().split(f"\n## {heading}", 1)
+    return "".join(block["sql"] for block in BLOCK.finditer(before)) if everything_before else BLOCK.search(after)["sql"]
+
+
+def regions(picture):
+    for region, shade in REGIONS.items():
+        border = {}
+        for row in rows(f"SELECT ring, x, y FROM abacus_hull('ground', within => '{region}') ORDER BY ring, position"):
+            border.setdefault(row["ring"], []).append((row["x"], row["y"]))
+        picture.paths(border.values(), closed=True, fill=shade, fill_rule="evenodd")
+
+
+def fixed_edges(picture, width):
+    for kind, colour in (("soft", PURPLE), ("hard", RED)):
+        found = rows(f"""SELECT a.x AS ax, a.y AS ay, b.x AS bx, b.y AS by FROM abacus_edges('ground', fixed => true) AS e
+            JOIN abacus_vertices('ground') AS a ON a.id = v0 JOIN abacus_vertices('ground') AS b ON b.id = v1 WHERE kind = '{kind}' ORDER BY v0, v1""")
+        picture.paths([((row["ax"], row["ay"]), (row["bx"], row["by"])) for row in found], fill="none", stroke=colour, stroke_width=width)
+
+
+def breaklines_mesh():
+    picture = Picture("Spot heights without and with a road, a lake, a building and a parcel", 250, 80, 3.6)
+    for mesh, left in (("bare", 0), ("ground", 130)):
+        picture.origin(left, 0)
+        if mesh == "ground":
+            regions(picture)
+        sides = {tuple(sorted(map(tuple, (c[i], c[i - 1])))) for c in (row["corners"] for row in rows(f"SELECT corners FROM abacus_cells('{mesh}')")) for i in range(3)}
+        picture.paths(sorted(sides), fill="none", stroke=BLUE, stroke_width=0.5)
+    fixed_edges(picture, 2)
+    return picture
+
+
+def breaklines_contours():
+    picture = Picture("Contours of the land, which is the parcel without the lake and the building", 120, 80, 5)
+    regions(picture)
+    for row in rows("SELECT id, value, path FROM abacus_contours('ground', 0.25, within => 'land') ORDER BY id"):
+        path = row["path"]
+        picture.path(list(zip(path[::2], path[1::2])), fill="none", stroke="#7a4a1d", stroke_width=1.8 if row["value"] == int(row["value"]) else 0.7)
+    fixed_edges(picture, 1)
+    return picture
+
+
+def breaklines_rings():
+    picture = Picture("Seven sets of rings: regions by parity, and what ST_BuildArea makes of them", 43, 14, 18)
+    sets = {}
+    for row in rows("SELECT name, ST_AsGeoJSON(geom)::json->'coordinates' AS ring FROM rings ORDER BY line"):
+        sets.setdefault(row["name"], []).append(row["ring"])
+    for name, lines in sets.items():
+        inside = [row["corners"] for row in rows(f"SELECT corners FROM abacus_cells('plan', within => '{name}') ORDER BY v0, v1, v2")]
+        (built,) = rows(f"SELECT ST_AsGeoJSON(ST_Multi(ST_Normalize(ST_BuildArea(ST_Node(ST_Collect(geom))))))::json->'coordinates' AS area FROM rings WHERE name = '{name}'")
+        for bottom, areas, shade, edge in ((7, [[cell] for cell in inside], "#dbe9f7", BLUE), (0, built["area"], "#fbe7d5", GREY)):
+            picture.origin(0, bottom)
+            for area in areas:
+                picture.paths(area, closed=True, fill=shade, fill_rule="evenodd", stroke=shade, stroke_width=1)
+            picture.paths(lines, fill="none", stroke=edge, stroke_width=2)
+        picture.text(min(x for x, _ in lines[0]), -1, name)
+    return picture
+
+
 def main():
     check = sys.argv[1:] == ["--check"]
     if sys.argv[1:] and not check:
         sys.exit(__doc__)
     psql("postgres", "-c", "SET client_min_messages = warning", "-c", f"DROP DATABASE IF EXISTS {DATABASE}", "-c", f"CREATE DATABASE {DATABASE}")
     psql(DATABASE, script=SETUP)
+    pictures = {f"guide_{draw.__name__}": draw for draw in (mesh, walk, curve, contours, change, voronoi)}
+    if rows("SELECT 1 FROM pg_available_extensions WHERE name = 'postgis'"):
+        # some of the examples show errors
+        psql(DATABASE, "-v", "ON_ERROR_STOP=0", stderr=subprocess.DEVNULL, script=example("Lines change later", everything_before=True) +
+             example("Rings twice") + "SELECT abacus_triangulate('bare', 'SELECT id, geom FROM spots');\n")
+        pictures |= {draw.__name__: draw for draw in (breaklines_mesh, breaklines_contours, breaklines_rings)}
     wrong = 0
-    for draw in (mesh, walk, curve, contours, change, voronoi):
-        file, drawn = IMAGES / f"guide_{draw.__name__}.svg", draw().write()
+    for name, draw in pictures.items():
+        file, drawn = DOCS / f"images/{name}.svg", draw().write()
         if check:
             if not file.exists() or file.read_text() != drawn:
                 wrong += 1

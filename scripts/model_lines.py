@@ -1,12 +1,13 @@
 #!/usr/bin/python3
 """Random changes of the points and lines of a mesh against a model.
 
-A world is a mesh, and what it should hold: points by id, lines by id. Points are inserted, staged and deleted, many of them on segments of
+A world is a mesh, and what it should hold: points by id, lines by id, regions (model_regions.py). Points are inserted, staged and deleted, many of them on segments of
 lines; lines are added, replaced and removed; attributes, too, which rewrites all pages. Changes are rolled back now and then, also to
-savepoints. The model knows which changes must be refused: lines that cross, points that lines name, points through which two lines pass.
+savepoints. The model knows which changes must be refused: lines that cross, points that lines name, points through which two lines pass,
+lines that are outlines of regions.
 
-Then the lines must be those of the model, the fixed edges those that follow from it by exact arithmetic, the triangles those of a fresh mesh,
-and abacus_check must find no fault. Everything follows from seed and world number.
+Then the lines must be those of the model, the fixed edges those that follow from it by exact arithmetic, the triangles and regions those of a
+fresh mesh, and abacus_check must find no fault. Everything follows from seed and world number.
 """
 import copy
 import os
@@ -15,11 +16,12 @@ import time
 
 import numpy
 
+import model_regions
 import model_worlds
 from psql_session import Failure, Session
 
 UNIT = 2 ** 16  # places are whole numbers of 1 / UNIT, so halves are exact
-REFUSALS = {"cross": "lines cross", "named": "cannot be deleted", "through": "cannot be deleted", "there": "already has a line"}
+REFUSALS = {"cross": "lines cross", "named": "cannot be deleted", "through": "cannot be deleted", "there": "already has a line", "used": "uses line"}
 
 
 class Model:
@@ -28,6 +30,7 @@ class Model:
     def __init__(self):
         self.points = {}  # id: place
         self.lines = {}  # id: (places, ids, kind)
+        self.regions = {}  # name: (lines, places of seeds)
 
     def segments(self, lines=None):
         for line, (places, _, kind) in (self.lines if lines is None else lines).items():
@@ -36,6 +39,10 @@ class Model:
 
     def named(self):
         return {place for places, *_ in self.lines.values() for place in places}
+
+    def used(self):
+        """Lines that are outlines."""
+        return {line for lines, _ in self.regions.values() for line in lines}
 
     def chain(self, a, b, places):
         """The places on a segment, in order along it."""
@@ -81,7 +88,7 @@ class Model:
         return False
 
 
-class World:
+class World(model_regions.Regions):
     def __init__(self, seed, number, options, done):
         self.chance = random.Random(f"{seed}.{number}.lines")
         self.done = done
@@ -204,6 +211,8 @@ class World:
         kind = self.chance.choice(("hard", "hard", "soft"))
         existing = "replace" if replaces else "error"
         why = "there" if not replaces and any(line in model.lines for line in lines) else None
+        if lines.keys() & model.used():
+            why = why or "used"
         for line, (places, ids, _) in lines.items():
             model.lines[line] = (places, ids, kind)
         model.points |= added
@@ -222,28 +231,32 @@ class World:
         gone = self.chance.sample(list(model.lines), min(len(model.lines), self.chance.choice((1, 1, 3, 100 if self.chance.random() < 0.1 else 2))))
         for line in gone:
             del model.lines[line]
-        return "SELECT abacus_unconstrain('mesh', 'VALUES " + ", ".join(f"({line})" for line in gone) + "');", None
+        why = "used" if set(gone) & model.used() else None
+        return "SELECT abacus_unconstrain('mesh', 'VALUES " + ", ".join(f"({line})" for line in gone) + "');", why
 
     def rewrite(self, _):
         return "SELECT abacus_add_attribute('mesh', 'more'), abacus_drop_attribute('mesh', 'more');", None
 
     def change(self):
-        """One change; True if it has been made."""
-        chosen = self.chance.choices((self.insert, self.delete, self.constrain, self.unconstrain, self.rewrite), (4, 4, 6, 1.5, 0.3))[0]
+        """One change, made or refused."""
+        chosen = self.chance.choices((self.insert, self.delete, self.constrain, self.unconstrain, self.rewrite, self.enclose, self.region, self.unregion),
+                                     (4, 4, 6, 1.5, 0.3, 2, 2, 0.4))[0]
         model = copy.deepcopy(self.model)
         made = chosen(model)
         if made is None:
             return
         sql, why = made
         self.run("SAVEPOINT change;")
-        went = self.run(sql, (REFUSALS[why],) if why else ())
+        of_lines = (self.constrain, self.unconstrain, self.enclose)
+        by_regions = model_regions.REFUSALS if chosen == self.region or chosen in of_lines and model.regions else ()
+        went = self.run(sql, (*((REFUSALS[why],) if why else ()), *by_regions))
         if why and went is not None:
             raise Failure(f"not refused ({why}): {sql}")
-        if why:
+        if went is None:
             self.run("ROLLBACK TO change;")
         else:
             self.model = model
-        self.done[f"{chosen.__name__}{' refused: ' + why if why else ''}"] += 1
+        self.done[f"{chosen.__name__}{' refused: ' + (why or 'regions') if went is None else ''}"] += 1
 
     def step(self):
         if self.chance.random() < 0.3:
@@ -276,9 +289,9 @@ class World:
     def answer(self, query):
         return [row.split("|") for row in self.run(query + ";").splitlines()]
 
-    def triangles(self, mesh):
+    def triangles(self, mesh, within=""):
         rows = []
-        for row in self.answer(f"SELECT v0, v1, v2 FROM abacus_simplices('{mesh}')"):
+        for row in self.answer(f"SELECT v0, v1, v2 FROM abacus_simplices('{mesh}'{within})"):
             places = [self.model.points[int(i)] for i in row]
             k = places.index(min(places))
             rows.append(tuple(places[k:] + places[:k]))
@@ -313,6 +326,7 @@ class World:
         here, there = self.triangles("mesh"), self.triangles("fresh")
         if here != there:
             raise Failure(f"triangles differ from a fresh mesh: {set(here) ^ set(there)}")
+        self.look_at_regions()
         self.done["comparisons"] += 1
 
     def live(self, end):

@@ -5,7 +5,7 @@
 #
 #   model_test.sh [lines|track] [-t seconds] [-n worlds] [-s seed] [-w world]
 #
-# With `lines`, points and lines of a mesh come and go, compared with a fresh mesh (scripts/model_lines.py); with
+# With `lines`, points, lines and regions of a mesh come and go, compared with a fresh mesh (scripts/model_lines.py); with
 # `track`, rows of tables of points and lines that a mesh follows (scripts/model_track.py), which needs PostGIS.
 # Ends after that time (default 60 s), or after that many worlds. A failure prints the seed and the number of
 # the world; -s and -w run that world again.

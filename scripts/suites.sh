@@ -132,7 +132,7 @@ viewer_tests() {
             test/viewer/${1:-*}.test.js
 }
 
-# The examples of pages, each page in a database of its own, and the pictures of the guide; pages that need
+# The examples of pages, each page in a database of its own, and the pictures of the guide and of breaklines; pages that need
 # PostGIS only if it is installed.
 documentation_examples() {
     if (($#)); then
@@ -141,7 +141,7 @@ documentation_examples() {
     fi
     local pages=() page postgis
     postgis=$("$PG_CONFIG" --sharedir)/extension/postgis.control
-    for page in README.md docs/guide.md docs/cookbook/*.md docs/reference/*.md docs/{relations,lab,operations,upkeep,postgis}.md; do
+    for page in README.md docs/guide.md docs/cookbook/*.md docs/reference/*.md docs/{breaklines,relations,lab,operations,upkeep,postgis}.md; do
         if [[ -e $postgis ]] || ! grep -q '^CREATE EXTENSION.* abacus_postgis' "$page"; then pages+=("$page"); fi
     done
     scripts/doc_examples.py "${pages[@]}" && scripts/guide_pictures.py --check
@@ -162,5 +162,6 @@ oracle_tests() {
 
 # Those that have more points and more settings to compare.
 large_oracle_tests() {
-    ABACUS_LARGE=1 oracle_tests constrained_test.py && ABACUS_LARGE=1 oracle_tests crossing_lines_test.py
+    local name
+    for name in constrained crossing_lines outlines; do ABACUS_LARGE=1 oracle_tests "${name}_test.py" || return; done
 }

@@ -5,8 +5,6 @@ CGAL's triangulation is also loaded, with its constrained edges as lines, as it 
 ABACUS_LARGE=1 takes more points and all settings for each input."""
 import math
 import os
-import pathlib
-import subprocess
 import unittest
 from fractions import Fraction
 
@@ -14,30 +12,12 @@ import numpy
 from scipy.spatial import Delaunay
 
 import abacus
+from constrained_oracle import canonical, theirs
 
-ORACLE = pathlib.Path(os.environ.get("ABACUS_BUILD", abacus.REPOSITORY / "build")) / "release/test/oracle/oracle_constrained"
 LARGE = bool(os.environ.get("ABACUS_LARGE"))
 # threads, the tiny intervals that let few points use many threads, and the cache in MB
 SETTINGS = [(threads, tiny, cache) for threads in (1, 2, 3, 7) for tiny in ("off", "on") for cache in (1, 64)]
 USUAL = [(1, "off", 1), (2, "on", 64), (3, "on", 1), (7, "on", 1)]
-
-
-def theirs(points, segments):
-    """CGAL's triangles and constrained edges, in canonical order, by indices of points."""
-    sent = numpy.array([len(points), len(segments)], "<i8").tobytes() + points.astype("<f8").tobytes() + segments.astype("<i8").tobytes()
-    done = subprocess.run([ORACLE], input=sent, capture_output=True, check=False)
-    if done.returncode != 0:
-        raise AssertionError(done.stderr.decode())
-    words = numpy.frombuffer(done.stdout, "<i8")
-    cut = 2 + 3 * words[0]
-    return words[2:cut].reshape(-1, 3), words[cut:].reshape(-1, 2)
-
-
-def canonical(triangles):
-    """The least corner first, in ascending order, orientation kept."""
-    first = triangles.argmin(axis=1)[:, None]
-    rotated = numpy.take_along_axis(triangles, (first + numpy.arange(3)) % 3, axis=1)
-    return rotated[numpy.lexsort(rotated.T[::-1])]
 
 
 def ours(mesh):
@@ -102,7 +82,7 @@ class Constrained(unittest.TestCase):
         """`points` are n x 2, all different; `lines` are lists of indices."""
         random = numpy.random.default_rng(len(points))
         segments = numpy.array([(a, b) for line in lines for a, b in zip(line, line[1:])], dtype=int).reshape(-1, 2)
-        triangles, edges = theirs(points, segments)
+        triangles, edges, _ = theirs(points, segments)
         # when a point comes: with the first ones, after the first lines, or last; those that lines name must be there
         time = numpy.where(numpy.isin(numpy.arange(len(points)), segments) | (len(points) < 10), 0, random.choice(3, len(points), p=(0.6, 0.39, 0.01)))
         abacus.store("lined_points", ["x", "y", "time"], numpy.column_stack([points, time]))

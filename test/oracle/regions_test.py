@@ -11,6 +11,9 @@ from scipy.sparse.csgraph import connected_components
 import abacus
 
 SETTINGS = [(1, "off", 64), (2, "on", 1), (3, "on", 64)]
+# of rings, and seeds within them
+CENTRES = numpy.array([(x, y) for x in range(3) for y in range(3)], dtype=float)
+SEEDS = CENTRES + [0.03, 0.05]
 
 
 def cells(condition=""):
@@ -37,8 +40,10 @@ class Regions(unittest.TestCase):
         abacus.psql("COPY ground_rows FROM STDIN (FORMAT csv)", lines)
         count = len(corners) + len(points)
         abacus.psql(f"""DROP TABLE IF EXISTS ground, ground_vertices, ground_lines, ground_regions CASCADE;
-            SET abacus.threads = {threads}; SET abacus.cache_size = '{cache}MB'; SET abacus.tiny_intervals = {tiny};
+            SET abacus.threads = {threads}; SET abacus.cache_size = '{cache}MB';
             SELECT abacus_triangulate('ground', 'SELECT id, x, y FROM ground_points WHERE id <= {count // 2 + len(corners)}');
+            -- with tiny intervals many points are slow
+            SET abacus.tiny_intervals = {tiny};
             SELECT abacus_constrain('ground', 'TABLE ground_rows')""")
         return count
 
@@ -84,30 +89,47 @@ class Regions(unittest.TestCase):
                 self.change(sum(map(len, rings)), count, setting)
                 self.expect(names)
 
-    def test_seeds(self):
-        """Each seed fills a connected component of triangles that meet across free edges."""
-        random = numpy.random.default_rng(5)
-        rings = [centre + ring(random, 0.2, 0.49) for centre in numpy.array([(x, y) for x in range(3) for y in range(3)], dtype=float)]
-        count = self.make(random.random((3000, 2)) * 4 - 1, rings, SETTINGS[1])
-        rows = ", ".join(f"('seed {n}', {n // 3}, {n % 3})" for n in range(9))
-        abacus.psql(f"SELECT abacus_region('ground', $$VALUES {rows}$$)")
-        for _ in range(2):
-            ids, _ = cells()
-            edges = {}
-            for number, corners in enumerate(ids):
-                for i in range(3):
-                    edges.setdefault(frozenset((corners[i - 1], corners[i - 2])), []).append(number)
-            fixed = {frozenset((int(a), int(b))) for a, b in abacus.rows("SELECT v0, v1 FROM abacus_edges('ground', fixed => true)")}
-            free = numpy.array([pair for edge, pair in edges.items() if len(pair) == 2 and edge not in fixed])
-            _, component = connected_components(coo_matrix((numpy.ones(len(free)), free.T), (len(ids), len(ids))), directed=False)
-            number = {tuple(corners): n for n, corners in enumerate(ids)}
-            for n in range(9):
-                within, _ = cells(f", within => 'seed {n}'")
-                members = [number[tuple(corners)] for corners in within]
-                self.assertEqual(len(set(component[members])), 1)
-                self.assertEqual((component == component[members[0]]).sum(), len(members))
-            self.change(sum(map(len, rings)), count, SETTINGS[1])
+    def expect_flooded(self):
+        """Each region is the connected component, across free edges, of the triangle at its seed."""
         self.assertEqual(abacus.rows("SELECT * FROM abacus_check('ground')"), [])
+        ids, corners = cells()
+        edges = {}
+        for number, triangle in enumerate(ids):
+            for i in range(3):
+                edges.setdefault(frozenset((triangle[i - 1], triangle[i - 2])), []).append(number)
+        fixed = {frozenset((int(a), int(b))) for a, b in abacus.rows("SELECT v0, v1 FROM abacus_edges('ground', fixed => true)")}
+        free = numpy.array([pair for edge, pair in edges.items() if len(pair) == 2 and edge not in fixed])
+        _, component = connected_components(coo_matrix((numpy.ones(len(free)), free.T), (len(ids), len(ids))), directed=False)
+        number = {tuple(triangle): n for n, triangle in enumerate(ids)}
+        for n, seed in enumerate(SEEDS):
+            within, _ = cells(f", within => 'seed {n}'")
+            ahead = numpy.roll(corners, -1, axis=1) - corners
+            aside = seed - corners
+            (at_seed,) = numpy.flatnonzero((ahead[:, :, 0] * aside[:, :, 1] > ahead[:, :, 1] * aside[:, :, 0]).all(axis=1))
+            self.assertEqual(sorted(number[tuple(triangle)] for triangle in within), numpy.flatnonzero(component == component[at_seed]).tolist())
+
+    def test_seeds(self):
+        random = numpy.random.default_rng(5)
+        rings = [centre + ring(random, 0.2, 0.49) for centre in CENTRES]
+        count = self.make(random.random((3000, 2)) * 4 - 1, rings, SETTINGS[1])
+        abacus.psql("SELECT abacus_region('ground', $$VALUES " + ", ".join(f"('seed {n}', {x}, {y})" for n, (x, y) in enumerate(SEEDS)) + "$$)")
+        self.expect_flooded()
+        self.change(sum(map(len, rings)), count, SETTINGS[1])
+        self.expect_flooded()
+        # from the centre of each ring a line to a corner; of each second one, another: they part the region
+        rows = [(100 + corner + 2 * n, *row) for n, centre in enumerate(CENTRES) for corner in (0, 1)[:1 + n % 2]
+                for row in ((1, *centre), (2, *rings[n][12 * corner]))]
+        whole = abacus.rows("SELECT region, area FROM abacus_regions('ground')")
+        abacus.psql("SELECT abacus_constrain('ground', $$SELECT line, k, NULL::bigint, x, y FROM (VALUES " +
+                    ", ".join(f"({line}, {k}, float8 '{x!r}', float8 '{y!r}')" for line, k, x, y in ((*row[:2], *map(float, row[2:])) for row in rows)) + ") AS v (line, k, x, y)$$)")
+        self.expect_flooded()
+        parted = abacus.rows("SELECT region, area FROM abacus_regions('ground')")
+        self.assertEqual([float(now[1]) < float(was[1]) for was, now in zip(whole, parted)], [n % 2 == 1 for n in range(len(CENTRES))])
+        abacus.psql("SELECT abacus_unconstrain('ground', $$VALUES " + ", ".join(f"({100 + 2 * n})" for n in range(0, len(CENTRES), 2)) + "$$)")
+        self.expect_flooded()
+        with self.assertRaisesRegex(abacus.Refused, "region"):
+            abacus.psql("SELECT abacus_unconstrain('ground', 'VALUES (102)')")
+        self.expect_flooded()
 
 
 if __name__ == "__main__":
