@@ -2,11 +2,12 @@
 import os
 import sys
 
-from . import apart, octree_input, read_2dm, read_medit, read_msh, read_npz, read_obj, read_off, read_other, read_ply, read_tetgen, read_vtu, read_xdmf
+from . import apart, octree_input, read_2dm, read_medit, read_msh, read_npz, read_obj, read_off, read_other, read_ply, read_poly, read_tetgen, read_vtu, read_xdmf
 from .input import Input
+from .plan_input import PlanInput
 from .psql import Failed
 
-READERS = {suffix: module for module in (read_2dm, read_medit, read_msh, read_npz, read_obj, read_off, read_ply, read_tetgen, read_vtu, read_xdmf)
+READERS = {suffix: module for module in (read_2dm, read_medit, read_msh, read_npz, read_obj, read_off, read_ply, read_poly, read_tetgen, read_vtu, read_xdmf)
            for suffix in module.suffixes}
 
 
@@ -21,11 +22,11 @@ def read_here(path, keep_apart):
 
 
 def read_file(path, keep_apart):
-    """What a file has, of a mesh or of an octree. It is read in a process of its own; errors name the file."""
+    """What a file has, of a mesh, of points and lines, or of an octree. It is read in a process of its own; errors name the file."""
     try:
         grid = apart.read(path, keep_apart=keep_apart)
         leaves = octree_input.kind_of(grid)
-        found = octree_input.OctreeInput(grid, leaves) if leaves else Input(grid)
+        found = PlanInput(grid) if grid.plan else octree_input.OctreeInput(grid, leaves) if leaves else Input(grid)
     except Failed as error:
         raise Failed(f"{path}: {error}") from error
     for note in found.notes:
