@@ -11,10 +11,10 @@ write_*.py     one format each
 grid.py        what a reader makes of a file, and the checks of it
 plan.py        lines and regions in a file
 cell_arrays.py what arrays of cells become: labels and markers
-words.py       numbers in text, with their lines; xml_lines.py: XML, likewise
-read_*.py      one format each, read_other.py by meshio; msh_*.py, medit_words.py, vtk_array.py, vtu_pieces.py, xdmf_*.py and poly_words.py are parts of them
+words.py       numbers in text, with their lines; xml_lines.py: XML, likewise; xml_stream.py: XML piece by piece
+read_*.py      one format each, read_other.py by meshio; msh_*.py, medit_words.py, vtk_array.py, vtu_pieces.py, xdmf_*.py, poly_words.py and landxml_*.py are parts of them
 apart.py       a process for a reader, with limits
 read.py        which reader a file's name asks for
 input.py       what abacus_load is given; octree_input.py: what abacus_octree_from_rows is given; plan_input.py: points, lines and regions
-load.py        that into tables, and a mesh; load_plan.py: likewise of points, lines and regions
+load.py        that into tables, and a mesh; load_plan.py: likewise of points, lines and regions; load_faces.py: with triangles
 """

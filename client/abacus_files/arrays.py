@@ -36,7 +36,7 @@ class Mesh:
     `attributes` of points, `labels` of simplices, `facets`: how many have markers."""
 
     def __init__(self, session, name, progress=None):
-        self.session, self.progress = session, progress
+        self.session, self.progress, self.name = session, progress, name
         self.sql = f"{literal(name)}::regclass"
         self.dimension, self.vertices, self.simplices, self.waiting, self.repeated = figures(
             session, self.sql, ("dimension", "vertices", "simplices", "waiting", "duplicates"))

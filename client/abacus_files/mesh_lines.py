@@ -3,19 +3,21 @@ from fractions import Fraction
 
 import numpy
 
-from .arrays import table_of
+from .arrays import table_of, values_of
 from .psql import Failed, literal
 
 
 class Corners:
-    """Corners of lines in the order of line and position: `line`, `number` of the vertex (from 0), `id`, `places`, `part` (-1: none), `soft`."""
+    """Corners of lines in the order of line and position: `line`, `number` of the vertex (from 0), `id`, `places`, `part` (-1: none), `soft`.
+    `values`: of the attribute `z`, which is its place among the attributes."""
 
-    def __init__(self, mesh):
-        query = (f"SELECT line, coalesce(v.number, -1), coalesce(v.id, -1), coalesce(part, -1), (kind = 'soft')::int::int8, l.x, l.y "
-                 f"FROM abacus_lines({mesh.sql}) AS l LEFT JOIN {mesh.numbered_vertices()} AS v ON v.x = l.x AND v.y = l.y ORDER BY line, position")
-        parts = [(table_of(chunk, 0, 5, "<i8"), table_of(chunk, 5, 2, "<f8")) for chunk in mesh.session.chunks(query, ["int8"] * 5 + ["float8"] * 2)]
+    def __init__(self, mesh, z=None):
+        query = (f"SELECT line, coalesce(v.number, -1), coalesce(v.id, -1), coalesce(part, -1), (kind = 'soft')::int::int8, l.x, l.y, "
+                 f"{'0::float8' if z is None else values_of('v.attributes', z + 1)[z]} FROM abacus_lines({mesh.sql}) AS l LEFT JOIN {mesh.numbered_vertices()} AS v ON v.x = l.x AND v.y = l.y ORDER BY line, position")
+        parts = [(table_of(chunk, 0, 5, "<i8"), table_of(chunk, 5, 3, "<f8")) for chunk in mesh.session.chunks(query, ["int8"] * 5 + ["float8"] * 3)]
         whole = numpy.concatenate([numpy.empty((0, 5), "<i8"), *(part for part, _ in parts)])
-        self.places = numpy.concatenate([numpy.empty((0, 2)), *(part for _, part in parts)])
+        reals = numpy.concatenate([numpy.empty((0, 3)), *(part for _, part in parts)])
+        self.places, self.values = reals[:, :2], reals[:, 2]
         self.line, self.number, self.id, self.part, self.soft = whole.T
         if (self.number < 0).any():
             raise Failed("the lines of the mesh wait for points: call abacus_build() first")

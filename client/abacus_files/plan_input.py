@@ -7,9 +7,9 @@ from .psql import Failed
 
 
 class PlanInput(Input):
-    """`ids`, `points`, `names` and `values` of attributes, `plan`, `srid`; `notes`: what is left out."""
+    """`ids`, `points`, `names` and `values` of attributes, `plan`, `srid`; `notes`: what is left out. `faces`: the Input of the file's triangles, or None."""
 
-    def __init__(self, grid):
+    def __init__(self, grid, retriangulate=False):
         self.notes, self.groups = list(grid.notes), grid.groups
         self.dimension, self.plan, self.srid = 2, grid.plan, grid.srid
         self.plan.check(grid.points)
@@ -23,6 +23,7 @@ class PlanInput(Input):
         if self.plan.regions and not len(self.plan.line):
             self.notes.append("regions and holes are left out: the file has no segments at which they could end")
             self.plan.regions = []
+        self.faces = Input(grid) if len(grid.cells.get("triangle", ())) and not retriangulate else None
 
     def marks(self):
         """Markers of segments: (the line on which an edge has it, the marker); and rows (line, position, place) of lines that are needed for a
