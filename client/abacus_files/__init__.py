@@ -4,15 +4,17 @@ psql.py        psql as a child, which ends when it should
 session.py     psql as a stream of rows, in one snapshot
 progress.py    a line on the terminal
 arrays.py      a mesh as chunks of arrays; octree.py: an octree likewise; series.py: a mesh at the steps of a series
+mesh_lines.py  its lines, their markers and its regions; seeds.py: places inside of regions
 held.py        what a format cannot hold
 formats.py     which writer a file's name asks for
 write_*.py     one format each
 grid.py        what a reader makes of a file, and the checks of it
+plan.py        lines and regions in a file
 cell_arrays.py what arrays of cells become: labels and markers
-words.py       numbers in text, with their lines; xml_lines.py: XML, likewise
-read_*.py      one format each, read_other.py by meshio; msh_*.py, medit_words.py, vtk_array.py, vtu_pieces.py and xdmf_*.py are parts of them
+words.py       numbers in text, with their lines; xml_lines.py: XML, likewise; xml_stream.py: XML piece by piece
+read_*.py      one format each, read_other.py by meshio; msh_*.py, medit_words.py, vtk_array.py, vtu_pieces.py, xdmf_*.py, poly_words.py and landxml_*.py are parts of them
 apart.py       a process for a reader, with limits
 read.py        which reader a file's name asks for
-input.py       what abacus_load is given; octree_input.py: what abacus_octree_from_rows is given
-load.py        that into tables, and a mesh
+input.py       what abacus_load is given; octree_input.py: what abacus_octree_from_rows is given; plan_input.py: points, lines and regions
+load.py        that into tables, and a mesh; load_plan.py: likewise of points, lines and regions; load_faces.py: with triangles
 """

@@ -13,6 +13,7 @@ import sys
 import numpy
 
 from .grid import Grid
+from .plan import Plan
 from .psql import Failed
 
 SECONDS, BYTES_A_SECOND = 20, 100_000  # of processor time
@@ -44,7 +45,10 @@ def send(grid, out):
     for group in GROUPS:
         for key, values in getattr(grid, group).items():
             named[group, key] = values
-    out.write(json.dumps({"arrays": list(named), "notes": grid.notes, "groups": grid.groups}).encode() + b"\n")
+    if grid.plan:
+        named.update({("plan", key): values for key, values in grid.plan.arrays().items()})
+    out.write(json.dumps({"arrays": list(named), "notes": grid.notes, "groups": grid.groups, "srid": grid.srid,
+                          "regions": grid.plan.regions if grid.plan else None}).encode() + b"\n")
     for values in named.values():
         numpy.lib.format.write_array(Pipe(out), numpy.ascontiguousarray(values), allow_pickle=False)
 
@@ -54,9 +58,14 @@ def receive(line, source):
     if "failed" in head:
         raise Failed(head["failed"])
     grid = Grid(None, {}, groups=head["groups"], notes=head["notes"])
+    grid.srid = head["srid"]
+    if head["regions"] is not None:
+        grid.plan = Plan(head["regions"])
     for group, *key in head["arrays"]:
         values = numpy.lib.format.read_array(Pipe(source), allow_pickle=False)
-        if key:
+        if group == "plan":
+            setattr(grid.plan, key[0], values)
+        elif key:
             getattr(grid, group)[tuple(key[0]) if isinstance(key[0], list) else key[0]] = values
         else:
             setattr(grid, group, values)

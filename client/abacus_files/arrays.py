@@ -36,7 +36,7 @@ class Mesh:
     `attributes` of points, `labels` of simplices, `facets`: how many have markers."""
 
     def __init__(self, session, name, progress=None):
-        self.session, self.progress = session, progress
+        self.session, self.progress, self.name = session, progress, name
         self.sql = f"{literal(name)}::regclass"
         self.dimension, self.vertices, self.simplices, self.waiting, self.repeated = figures(
             session, self.sql, ("dimension", "vertices", "simplices", "waiting", "duplicates"))
@@ -58,14 +58,21 @@ class Mesh:
         (differ,), = self.session.all(f"SELECT (count(DISTINCT id) = count(*))::int::int8 FROM {self.numbered_vertices()}", ["int8"])
         return bool(differ)
 
-    def unheld(self):
-        """What no file holds, as texts."""
-        lines = 0
+    def unheld(self, holds=()):
+        """What no file holds, as texts, but for what this one `holds`."""
+        lines, regions = 0, []
         if self.dimension == 2:
             (lines,), = self.session.all(f"SELECT count(*) FROM abacus_edges({self.sql}, fixed => true)", ["int8"])
-        return [text for count, text in (
-            (self.repeated, f"{self.repeated} points that equal a vertex"), (self.waiting, f"{self.waiting} points that wait to be inserted"),
-            (lines, f"lines, to which {lines} edges belong, and that these are fixed"), (self.srid, f"the SRID {self.srid}")) if count > 0]
+            regions = self.session.texts(f"SELECT region FROM abacus_regions({self.sql}) ORDER BY number") if lines else []
+        return [text for what, count, text in (
+            ("repeated", self.repeated, f"{self.repeated} points that equal a vertex"), ("waiting", self.waiting, f"{self.waiting} points that wait to be inserted"),
+            ("lines", lines, f"lines, to which {lines} edges belong, and that these are fixed"),
+            ("regions", len(regions), f"regions ({', '.join(regions)})"), ("srid", self.srid, f"the SRID {self.srid}")) if count > 0 and what not in holds]
+
+    def not_delaunay(self):
+        """What a file of points and lines loses of a mesh that was made elsewhere, as texts."""
+        changeable, = figures(self.session, self.sql, ("changeable",))
+        return [] if changeable else [f"its {self.simplices} triangles, which are not those that points and lines give"]
 
     def of_label(self, n, greatest):
         """Whether the numbers of a label are whole and not beyond this one; and how many simplices have none."""

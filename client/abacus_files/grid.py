@@ -21,7 +21,8 @@ class Grid:
     """`points`: n x 2 or n x 3. `ids`: of the points, or None. `data`: {name: n numbers, or n x k}. `cells`: {kind: m x corners}, where a corner
     is a point's place, from 0. `labels`: {(kind, name): m numbers}, NaN where a cell has none. `markers`: {kind: m whole numbers}, where 0 is none.
     `codes`: {kind: m places of octants on the curve}. `groups`: what a file calls its labels, as (dimension, number, name). `notes`: what a user
-    should know. `lines`: of a text, functions that say in which line a point, or a cell of a kind, is: {"points" or kind: function of its place}."""
+    should know. `plan`: the Plan of a file that gives lines instead of triangles, or beside them. `srid`: of its coordinates, 0 if unknown.
+    `lines`: of a text, functions that say in which line a point, or a cell of a kind, is: {"points" or kind: function of its place}."""
 
     def __init__(self, points, cells, ids=None, data=None, labels=None, markers=None, groups=(), notes=(), lines=None):
         self.points = points
@@ -31,6 +32,7 @@ class Grid:
         self.labels = labels or {}
         self.markers = markers or {}
         self.codes = {}
+        self.plan, self.srid = None, 0
         self.groups = list(groups)
         self.notes = list(notes)
         self.lines = lines or {}

@@ -10,3 +10,9 @@ def loss(mesh, ids=True, attributes=True, labels=True, markers=True):
         if there and held is not True:
             lost.append(held if held else what)
     return lost
+
+
+def doubles_hold_ids(mesh):
+    """Doubles hold whole numbers up to 2^53."""
+    least, greatest = mesh.id_range()
+    return max(greatest, -least - 1) <= 1 << 53

@@ -70,17 +70,17 @@ class Script:
                               [*((wholes, found.ids[corner]) for corner in found.simplices.T), *((reals, values) for values in found.labels)])
         yield from table("facets", [*(f"{name} bigint" for name in self.corners[:-1]), "marker integer"],
                               [*((wholes, found.ids[corner]) for corner in found.facets.T), (wholes, found.markers)])
-        yield 0, self.load()
+        yield 0, statement(self.load_sql())
         if self.groups is not None:
             yield 0, self.named_groups()
         yield 0, "COMMIT;\n"
 
-    def load(self):
+    def load_sql(self):
         points = f"SELECT {', '.join(['id', *self.axes, *self.attributes])} FROM abacus_import_points"
-        return statement(f"SELECT abacus_load({literal(self.mesh)}, {literal(points)}, 'TABLE abacus_import_simplices', "
-                         f"attributes => {texts(self.found.names)}, labels => {texts(self.found.label_names) if self.labels else 'NULL'}, "
-                         f"facets => {literal('TABLE abacus_import_facets') if len(self.found.facets) else 'NULL'}, "
-                         f"retriangulate => {'true' if self.retriangulate else 'false'}, split_nodes => {'true' if self.split_nodes else 'false'})")
+        return (f"SELECT abacus_load({literal(self.mesh)}, {literal(points)}, 'TABLE abacus_import_simplices', "
+                f"attributes => {texts(self.found.names)}, labels => {texts(self.found.label_names) if self.labels else 'NULL'}, "
+                f"facets => {literal('TABLE abacus_import_facets') if len(self.found.facets) else 'NULL'}, "
+                f"retriangulate => {'true' if self.retriangulate else 'false'}, split_nodes => {'true' if self.split_nodes else 'false'})")
 
     def named_groups(self):
         """A table of the names that the file gives its labels and markers."""

@@ -30,7 +30,7 @@ class Octree(Mesh):
     def ids_differ(self):
         return True
 
-    def unheld(self):
+    def unheld(self, _):
         return ([f"the SRID {self.srid}"] if self.srid > 0 else []) + (
             [f"that its leaves may have the level {self.finest} at most"] if self.finest < FINEST[self.dimension] else [])
 

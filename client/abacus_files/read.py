@@ -2,30 +2,42 @@
 import os
 import sys
 
-from . import apart, octree_input, read_2dm, read_medit, read_msh, read_npz, read_obj, read_off, read_other, read_ply, read_tetgen, read_vtu, read_xdmf
+from . import apart, octree_input, read_2dm, read_landxml, read_medit, read_msh, read_npz, read_obj, read_off, read_other, read_ply, read_poly, read_tetgen, read_vtu, read_xdmf
 from .input import Input
+from .plan_input import PlanInput
 from .psql import Failed
 
-READERS = {suffix: module for module in (read_2dm, read_medit, read_msh, read_npz, read_obj, read_off, read_ply, read_tetgen, read_vtu, read_xdmf)
+READERS = {suffix: module for module in (read_2dm, read_landxml, read_medit, read_msh, read_npz, read_obj, read_off, read_ply, read_poly, read_tetgen, read_vtu, read_xdmf)
            for suffix in module.suffixes}
 
 
+XML, HEAD = ".xml", 4096  # others write .xml, too
+
+
 def reader(path):
-    return READERS.get(os.path.splitext(path)[1].lower(), read_other)
+    suffix = os.path.splitext(path)[1].lower()
+    if suffix == XML:
+        with open(path, "rb") as file:
+            return read_landxml if b"<LandXML" in file.read(HEAD).replace(b"\0", b"") else read_other
+    return READERS.get(suffix, read_other)
 
 
-def read_here(path, keep_apart):
-    """The grid of a file, read in this process. `keep_apart`: vertices at one place."""
+def read_here(path, keep_apart, surface=None):
+    """The grid of a file, read in this process. `keep_apart`: vertices at one place. `surface`: the name of one of LandXML."""
     module = reader(path)
+    if module is read_landxml:
+        return module.read(path, surface)
+    if surface is not None:
+        raise Failed("has no surfaces: --surface is for LandXML")
     return module.read(path, keep_apart) if module in (read_vtu, read_xdmf) else module.read(path)
 
 
-def read_file(path, keep_apart):
-    """What a file has, of a mesh or of an octree. It is read in a process of its own; errors name the file."""
+def read_file(path, keep_apart, surface=None, retriangulate=False):
+    """What a file has, of a mesh, of points and lines, or of an octree. It is read in a process of its own; errors name the file."""
     try:
-        grid = apart.read(path, keep_apart=keep_apart)
+        grid = apart.read(path, keep_apart=keep_apart, surface=surface)
         leaves = octree_input.kind_of(grid)
-        found = octree_input.OctreeInput(grid, leaves) if leaves else Input(grid)
+        found = PlanInput(grid, retriangulate) if grid.plan else octree_input.OctreeInput(grid, leaves) if leaves else Input(grid)
     except Failed as error:
         raise Failed(f"{path}: {error}") from error
     for note in found.notes:

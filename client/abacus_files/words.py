@@ -136,12 +136,12 @@ class Places:
             second = int(self.order[1:][twice][0])
             raise Failed(f"{f'line {line_of(second)}: ' if line_of else ''}two points have the number {numbers[second]}")
 
-    def of(self, corners, line_of=None):
-        """Those of an array of numbers. line_of(n): the line of the nth."""
+    def of(self, corners, line_of=None, what="cell"):
+        """Those of an array of numbers. line_of(n): the line of the nth. `what` names them."""
         ordered = self.ordered
         at = numpy.minimum(numpy.searchsorted(ordered, corners), max(len(ordered) - 1, 0))
         missing = ordered[at] != corners if len(ordered) else numpy.ones(corners.shape, bool)
         if missing.any():
             where = f"line {line_of(int(numpy.flatnonzero(missing.reshape(-1))[0]))}: " if line_of else ""
-            raise Failed(f"{where}a cell names point {corners[missing][0]}, which is not there")
+            raise Failed(f"{where}a {what} names point {corners[missing][0]}, which is not there")
         return self.order[at]

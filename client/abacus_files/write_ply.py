@@ -2,7 +2,7 @@
 import numpy
 
 from .arrays import unlike
-from .held import loss
+from .held import doubles_hold_ids, loss
 from .psql import Failed
 
 suffixes = (".ply",)
@@ -16,10 +16,9 @@ def plain(names, taken):
 
 
 def type_of_ids(mesh):
-    """PLY has whole numbers of 32 bits; doubles hold those up to 2^53. None: nothing holds them."""
+    """PLY has whole numbers of 32 bits; doubles hold greater ones. None: nothing holds them."""
     least, greatest = mesh.id_range()
-    reach = max(greatest, -least - 1)
-    return "int" if reach < 1 << 31 else "double" if reach <= 1 << 53 else None
+    return "int" if -(1 << 31) <= least and greatest < 1 << 31 else "double" if doubles_hold_ids(mesh) else None
 
 
 def write(mesh, file, z):
