@@ -369,6 +369,7 @@ PG_SOURCES += src/pg/sql/draw/drawing.c
 PG_SOURCES += src/pg/sql/draw/fn_draw.c
 PG_SOURCES += src/pg/sql/draw/fn_tile.c
 PG_SOURCES += src/pg/sql/draw/fn_tiles.c
+PG_SOURCES += src/pg/sql/draw/tile_lines.c
 PG_SOURCES += src/pg/sql/lab/fn_goose.c
 PG_SOURCES += src/pg/sql/lab/fn_quake.c
 PG_SOURCES += src/pg/sql/levels/fn_contours.c

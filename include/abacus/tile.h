@@ -61,24 +61,48 @@ typedef struct abacus_tile_vector_kind
 	abacus_extent extent;    /* leave out triangles outside of it */
 } abacus_tile_vector_kind;
 
-/* Gets the name of a region in UTF-8, which the caller keeps until the tile is made. */
-typedef struct abacus_region_names
+/* What the host knows of regions and lines. */
+typedef struct abacus_tile_words
 {
-	abacus_host_status (*name)(void *context, uint32_t region, const char **name);
+	/* Gets the name of a region in UTF-8, which the host keeps until the tile is made; may be NULL. */
+	abacus_host_status (*region_name)(void *context, uint32_t region, const char **name);
 	void *context;
-} abacus_region_names;
+	int32_t lines_apart; /* 1: a tile with triangles gets its fixed edges by abacus_tile_fixed() */
+} abacus_tile_words;
 
 /*
  * A Mapbox vector tile; `picture` gets its bytes. Its layers are triangles, vertices, contours, fixed and
  * hull. For a tile with many triangles it has no triangles and vertices, and contours between
- * samples. Triangles in a region have its name, unless `names` is NULL.
+ * samples. Triangles in a region have its name. *has_triangles is set to 0 for a tile with too many.
  */
 ABACUS_API abacus_status abacus_tile_vector(const abacus_host *host, const abacus_facts *facts,
 											const abacus_tile *tile,
 											const abacus_tile_vector_kind *kind,
-											const abacus_region_names *names,
+											const abacus_tile_words *words,
 											const abacus_tile_memory *memory,
-											abacus_picture *picture, abacus_error *error);
+											abacus_picture *picture, int32_t *has_triangles,
+											abacus_error *error);
+
+/* The part of a mesh that a vector tile shows, in its coordinates. */
+ABACUS_API abacus_status abacus_tile_window(const abacus_facts *facts, const abacus_tile *tile,
+											double lower[2], double upper[2],
+											abacus_error *error);
+
+/* A fixed edge and a line over it; x and y of both ends. */
+typedef struct abacus_tile_edge
+{
+	double ends[4];
+	int64_t line;
+	int32_t is_hard;
+} abacus_tile_edge;
+
+#define ABACUS_MOST_TILE_EDGES 16000
+
+/* The layer fixed of a vector tile, to be appended to it: of edges, whose order does not matter. */
+ABACUS_API abacus_status abacus_tile_fixed(const abacus_host *host, const abacus_facts *facts,
+										   const abacus_tile *tile,
+										   const abacus_tile_edge *edges, uint64_t count,
+										   abacus_picture *layer, abacus_error *error);
 
 #ifdef __cplusplus
 }

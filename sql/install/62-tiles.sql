@@ -39,7 +39,7 @@ RETURNS bytea
 AS 'MODULE_PATHNAME', 'abacus_sql_tile_vector'
 LANGUAGE C STABLE PARALLEL SAFE COST 1000000;
 COMMENT ON FUNCTION abacus_tile_vector(regclass, integer, integer, integer, integer, double precision[], text, double precision, double precision, text) IS
-    'a tile of a web map as a Mapbox vector tile, with the layers triangles, vertices, contours, fixed and hull. Triangles have the name of their region, if the caller may read it; fixed has the fixed edges. A tile with many triangles has only contours, fixed and hull. within is the name of a region of the mesh, or a polygon as WKT, EWKT or hexadecimal EWKB; all else is as outside of the mesh. Shapes: world is {x, y, side}. Units: world and max_edge in those of the coordinates; contours in those of the attribute. Errors: those of abacus_tile_picture; 42704 no such region';
+    'a tile of a web map as a Mapbox vector tile, with the layers triangles, vertices, contours, fixed and hull. Triangles have the name of their region, if the caller may read it; fixed has the fixed edges, in a tile with triangles those of each line, if the caller may read the lines. A tile with many triangles has only contours, fixed and hull. within is the name of a region of the mesh, or a polygon as WKT, EWKT or hexadecimal EWKB; all else is as outside of the mesh. Shapes: world is {x, y, side}. Units: world and max_edge in those of the coordinates; contours in those of the attribute. Errors: those of abacus_tile_picture; 42704 no such region';
 
 CREATE FUNCTION abacus_tile_terrain(
     mesh regclass,

@@ -48,13 +48,40 @@ abacus_status abacus_tile_terrain(const abacus_host *host, const abacus_facts *f
 
 abacus_status abacus_tile_vector(const abacus_host *host, const abacus_facts *facts,
                                  const abacus_tile *tile, const abacus_tile_vector_kind *kind,
-                                 const abacus_region_names *names, const abacus_tile_memory *memory,
-                                 abacus_picture *picture, abacus_error *error) {
+                                 const abacus_tile_words *words, const abacus_tile_memory *memory,
+                                 abacus_picture *picture, int32_t *has_triangles,
+                                 abacus_error *error) {
     return abacus::guard(error, [&] {
         require_plane(*facts);
         const abacus::Host wrapped(*host);
-        abacus::Png bytes = abacus::vector_tile(wrapped, *facts, *tile, *kind, names, *memory);
+        abacus::VectorTile made =
+            abacus::vector_tile(wrapped, *facts, *tile, *kind, *words, *memory);
+        *has_triangles = made.has_triangles;
+        const bool is_blank = made.bytes.size() == 0;
+        return hand_over(std::move(made.bytes), is_blank, picture);
+    });
+}
+
+abacus_status abacus_tile_window(const abacus_facts *facts, const abacus_tile *tile,
+                                 double lower[2], double upper[2], abacus_error *error) {
+    return abacus::guard(error, [&] {
+        require_plane(*facts);
+        const abacus::Box<2> box = abacus::TileWindow(*tile, *facts).in_mesh(abacus::vector_margin);
+        std::copy_n(box.lower.begin(), 2, lower);
+        std::copy_n(box.upper.begin(), 2, upper);
+        return ABACUS_OK;
+    });
+}
+
+abacus_status abacus_tile_fixed(const abacus_host *host, const abacus_facts *facts,
+                                const abacus_tile *tile, const abacus_tile_edge *edges,
+                                uint64_t count, abacus_picture *layer, abacus_error *error) {
+    return abacus::guard(error, [&] {
+        require_plane(*facts);
+        const abacus::Host wrapped(*host);
+        abacus::Png bytes =
+            abacus::fixed_layer(wrapped, *facts, *tile, {edges, static_cast<std::size_t>(count)});
         const bool is_blank = bytes.size() == 0;
-        return hand_over(std::move(bytes), is_blank, picture);
+        return hand_over(std::move(bytes), is_blank, layer);
     });
 }

@@ -53,7 +53,7 @@ void TileLines::put_line(VectorLayer &layer, Segment *segment) {
     layer.add_line({line_.data(), line_.size()});
 }
 
-void TileLines::put_into(VectorLayer &layer, Tag tag) {
+void TileLines::put_into(VectorLayer &layer, const Tag &tag) {
     const auto by_key = [](const auto &a, const auto &b) { return key_of(a) < key_of(b); };
     std::sort(segments_.begin(), segments_.end(), by_key);
     ends_.clear();
@@ -64,7 +64,7 @@ void TileLines::put_into(VectorLayer &layer, Tag tag) {
             return segment.level != level->level;
         });
         layer.begin_lines();
-        if (tag != nullptr) tag(layer, level->level);
+        if (tag) tag(layer, level->level);
         // Open lines first, then closed ones.
         for (const bool is_closed : {false, true})
             for (Segment *segment = level; segment != end; ++segment) {

@@ -9,6 +9,7 @@
 #include "tiles/vector_layer.hpp"
 
 #include <cmath>
+#include <functional>
 
 namespace abacus {
 
@@ -31,7 +32,7 @@ bool clip_to_tile(Point<2> &a, Point<2> &b);
 class TileLines {
 public:
     /// Tags a feature with its level.
-    using Tag = void (*)(VectorLayer &layer, double level);
+    using Tag = std::function<void(VectorLayer &layer, double level)>;
 
     explicit TileLines(const Host &host) : host_(host), segments_(host), ends_(host), line_(host) {}
 
@@ -42,7 +43,7 @@ public:
     }
     void clear() { segments_.clear(); }
     /// A feature for each level, tagged with it unless `tag` is null.
-    void put_into(VectorLayer &layer, Tag tag);
+    void put_into(VectorLayer &layer, const Tag &tag);
 
 private:
     struct Segment {

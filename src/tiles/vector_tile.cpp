@@ -24,8 +24,6 @@ constexpr std::uint32_t squares = 128;
 // The most segments of contours: if there are more, the interval is doubled.
 constexpr double most_segments = 32000;
 
-constexpr double margin = double{tile_buffer} / tile_extent;
-
 struct Corner {
     Point<2> at; // in the tile
     double value;
@@ -33,18 +31,39 @@ struct Corner {
 };
 using Triangle = std::array<Corner, 3>; // counterclockwise where y points up
 
-const char *name_of(const abacus_region_names &names, RegionNumber region) {
+struct LineKind {
+    std::int64_t line;
+    bool is_hard;
+    auto operator<=>(const LineKind &) const = default;
+};
+
+/// A place of the mesh in units of the tile.
+Point<2> in_tile(const TileWindow &window, const Point<2> &p) {
+    const Point<2> in_plane = window.plane().project(p);
+    const double units = tile_extent / window.side();
+    return {(in_plane[0] - window.box().lower[0]) * units,
+            (window.box().upper[1] - in_plane[1]) * units};
+}
+
+Png as_png(const Host &host, const TileBuffer &bytes) {
+    Png result(host);
+    if (!bytes.empty())
+        result.append(reinterpret_cast<const unsigned char *>(bytes.data()), bytes.size());
+    return result;
+}
+
+const char *name_of(const abacus_tile_words &words, RegionNumber region) {
     const char *name = nullptr;
-    host::require(names.name(names.context, region, &name));
+    host::require(words.region_name(words.context, region, &name));
     return name;
 }
 
 class Maker {
 public:
     Maker(const Host &host, const abacus_facts &facts, const TileWindow &window,
-          const abacus_tile_vector_kind &kind, const abacus_region_names *names,
+          const abacus_tile_vector_kind &kind, const abacus_tile_words &words,
           const abacus_tile_memory &memory)
-        : host_(host), facts_(facts), window_(window), kind_(kind), names_(names), memory_(memory),
+        : host_(host), facts_(facts), window_(window), kind_(kind), words_(words), memory_(memory),
           values_(host, facts, kind.attribute), triangles_(host), regions_(host), hull_(host),
           fixed_(host), bytes_(host) {
         if (const Polygon *polygon = polygon_of(kind.extent))
@@ -52,26 +71,19 @@ public:
                              [this](const Point<2> &p) { return place_of_vertex(p); });
     }
 
-    Png make() {
-        if (!read() || !write_all()) {
+    VectorTile make() {
+        const bool has_triangles = read() && write_all();
+        if (!has_triangles) {
             sample();
             find_hull();
             find_fixed();
             write_overview();
         }
-        Png result(host_);
-        if (!bytes_.empty())
-            result.append(reinterpret_cast<const unsigned char *>(bytes_.data()), bytes_.size());
-        return result;
+        return {as_png(host_, bytes_), has_triangles};
     }
 
 private:
-    Point<2> place(const Point<2> &in_plane) const {
-        const double units = tile_extent / window_.side();
-        return {(in_plane[0] - window_.box().lower[0]) * units,
-                (window_.box().upper[1] - in_plane[1]) * units};
-    }
-    Point<2> place_of_vertex(const Point<2> &p) const { return place(window_.plane().project(p)); }
+    Point<2> place_of_vertex(const Point<2> &p) const { return in_tile(window_, p); }
     static bool meets_tile(const Point<2> &a, const Point<2> &b, const Point<2> &c) {
         Box<2> box;
         for (const Point<2> *p : {&a, &b, &c}) box.extend(*p);
@@ -105,7 +117,7 @@ private:
     const abacus_facts &facts_;
     const TileWindow &window_;
     const abacus_tile_vector_kind &kind_;
-    const abacus_region_names *names_; // null: triangles have none
+    const abacus_tile_words &words_;
     const abacus_tile_memory &memory_;
     std::optional<Polygon> polygon_; // of the extent, in units of the tile
     PageValues<2> values_;
@@ -120,7 +132,7 @@ private:
 
 /// Reads all triangles; false if there are too many.
 bool Maker::read() {
-    const BoxRegion<2> region(window_.in_mesh(margin));
+    const BoxRegion<2> region(window_.in_mesh(vector_margin));
     RangeScan<2> pages(host_, facts_, &region);
     while (pages.advance())
         if (!read(pages.page())) return false;
@@ -147,7 +159,7 @@ bool Maker::read(const PageView<2> &page) {
         for (int i = 0; i < 3; ++i) triangle[i].value = values_.value(page.corner(s, i));
         triangles_.push_back(triangle);
         regions_.push_back(page.region(s));
-        add_fixed(page, s);
+        if (words_.lines_apart == 0) add_fixed(page, s);
     }
     return true;
 }
@@ -169,7 +181,7 @@ void Maker::add_fixed(const PageView<2> &page, int simplex) {
 void Maker::find_fixed() {
     fixed_.clear();
     if (facts_.census.lines == 0) return;
-    const BoxRegion<2> region(window_.in_mesh(margin));
+    const BoxRegion<2> region(window_.in_mesh(vector_margin));
     RangeScan<2> pages(host_, facts_, &region, pages_in<2>(kind_.extent));
     while (pages.advance()) {
         const PageView<2> &page = pages.page();
@@ -301,8 +313,8 @@ void Maker::add_triangle(VectorLayer &layer, std::size_t n,
         sum += triangle[i].value / 3;
     }
     layer.tag(3, sum);
-    if (names_ != nullptr && regions_[n] != no_region)
-        layer.tag_word(4, regions_[n], name_of(*names_, regions_[n]));
+    if (words_.region_name != nullptr && regions_[n] != no_region)
+        layer.tag_word(4, regions_[n], name_of(words_, regions_[n]));
 }
 
 void Maker::add_vertices(VectorLayer &layer) const {
@@ -392,7 +404,7 @@ void Maker::write_overview() {
 /// False, with nothing written, if that is too large.
 bool Maker::write_all() {
     VectorLayer triangles(host_, "triangles", {"v0", "v1", "v2", "value"});
-    if (names_ != nullptr) triangles.add_key("region");
+    if (words_.region_name != nullptr) triangles.add_key("region");
     VectorLayer vertices(host_, "vertices", {"id", "value"});
     add_triangles(triangles);
     add_vertices(vertices);
@@ -409,15 +421,49 @@ bool Maker::write_all() {
 
 } // namespace
 
-Png vector_tile(const Host &host, const abacus_facts &facts, const abacus_tile &tile,
-                const abacus_tile_vector_kind &kind, const abacus_region_names *names,
-                const abacus_tile_memory &memory) {
+VectorTile vector_tile(const Host &host, const abacus_facts &facts, const abacus_tile &tile,
+                       const abacus_tile_vector_kind &kind, const abacus_tile_words &words,
+                       const abacus_tile_memory &memory) {
     const TileWindow window(tile, facts);
     if (kind.attribute >= static_cast<std::int32_t>(facts.columns.attributes))
         throw Error(ABACUS_ERROR_ARGUMENT, "the mesh has no such attribute");
     if (!(std::isfinite(kind.contour_interval) && kind.contour_interval >= 0))
         throw Error(ABACUS_ERROR_ARGUMENT, "interval of the contours is negative or not finite");
-    return Maker(host, facts, window, kind, names, memory).make();
+    return Maker(host, facts, window, kind, words, memory).make();
+}
+
+Png fixed_layer(const Host &host, const abacus_facts &facts, const abacus_tile &tile,
+                std::span<const abacus_tile_edge> edges) {
+    const TileWindow window(tile, facts);
+    Arena<LineKind> lines(host); // numbered, since a level is a double
+    for (const abacus_tile_edge &edge : edges) lines.push_back({edge.line, edge.is_hard != 0});
+    std::sort(lines.begin(), lines.end());
+    lines.resize(static_cast<std::size_t>(std::unique(lines.begin(), lines.end()) - lines.begin()));
+    Arena<abacus_tile_edge> sorted(host);
+    for (const abacus_tile_edge &edge : edges) sorted.push_back(edge);
+    std::sort(sorted.begin(), sorted.end(), [](const auto &a, const auto &b) {
+        return std::lexicographical_compare(a.ends, a.ends + 4, b.ends, b.ends + 4);
+    });
+    TileLines segments(host);
+    for (const abacus_tile_edge &edge : sorted) {
+        const auto *const line =
+            std::lower_bound(lines.begin(), lines.end(), LineKind{edge.line, edge.is_hard != 0});
+        segments.add(static_cast<double>(line - lines.begin()),
+                     in_tile(window, {edge.ends[0], edge.ends[1]}),
+                     in_tile(window, {edge.ends[2], edge.ends[3]}));
+    }
+    VectorLayer layer(host, "fixed", {"kind", "line"});
+    segments.put_into(layer, [&](VectorLayer &l, double level) {
+        const auto &[line, is_hard] = lines[static_cast<std::size_t>(level)];
+        l.tag_word(0, is_hard ? 0 : 1, is_hard ? "hard" : "soft");
+        l.tag_id(1, line);
+    });
+    TileBuffer bytes(host);
+    {
+        TileWriter writer(bytes);
+        layer.write(host, writer);
+    }
+    return as_png(host, bytes);
 }
 
 } // namespace abacus

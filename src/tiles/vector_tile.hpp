@@ -8,7 +8,10 @@
 #pragma once
 
 #include "draw/picture.hpp"
+#include "tiles/tile_lines.hpp"
 #include "tiles/tile_window.hpp"
+
+#include <span>
 
 namespace abacus {
 
@@ -16,10 +19,21 @@ namespace abacus {
 inline constexpr std::size_t most_tile_bytes = 500000;
 inline constexpr std::size_t most_tile_triangles = 4096;
 
-/// Throws an Error (argument) if there is no such tile. Triangles have no names of regions if
-/// `names` is null. The bytes are a tile's, not a PNG's.
-Png vector_tile(const Host &host, const abacus_facts &facts, const abacus_tile &tile,
-                const abacus_tile_vector_kind &kind, const abacus_region_names *names,
-                const abacus_tile_memory &memory);
+/// The share of a side that is kept around a tile.
+inline constexpr double vector_margin = double{tile_buffer} / tile_extent;
+
+struct VectorTile {
+    Png bytes; // a tile's, not a PNG's
+    bool has_triangles;
+};
+
+/// Throws an Error (argument) if there is no such tile.
+VectorTile vector_tile(const Host &host, const abacus_facts &facts, const abacus_tile &tile,
+                       const abacus_tile_vector_kind &kind, const abacus_tile_words &words,
+                       const abacus_tile_memory &memory);
+
+/// The layer `fixed` alone, a feature for each line and kind.
+Png fixed_layer(const Host &host, const abacus_facts &facts, const abacus_tile &tile,
+                std::span<const abacus_tile_edge> edges);
 
 } // namespace abacus

@@ -149,6 +149,17 @@ class Tiles(unittest.TestCase):
         for tags in (f["properties"] for f in triangles):
             ids = frozenset((tags["v0"], tags["v1"], tags["v2"]))
             self.assertEqual(tags.get("region"), "Südufer" if ids in regions else None)
+        # where there are triangles, edges have their lines, two of them if they share one
+        abacus.psql("SELECT abacus_constrain('shore', 'VALUES (9007199254740993, 1, 10000), (9007199254740993, 2, 10001)')")
+        found = {}
+        corner = ZOOM, X - 1, Y + 1
+        for feature in features("fixed", tile(f"abacus_tile_vector('shore', {ZOOM}, {X - 1}, {Y + 1})"), corner):
+            tags, geometry = feature["properties"], feature["geometry"]
+            parts = geometry["coordinates"] if geometry["type"] == "MultiLineString" else [geometry["coordinates"]]
+            found[tags["line"], tags["kind"], tags.get("line_text")] = sum(numpy.hypot(*numpy.diff(numpy.array(part), axis=0).T).sum() for part in parts)
+        self.assertEqual(set(found), {(1, "hard", None), (2, "soft", None), (9007199254740993, "hard", "9007199254740993")})
+        self.assertGreater(found[1, "hard", None], found[9007199254740993, "hard", "9007199254740993"])
+        abacus.psql("SELECT abacus_unconstrain('shore', 'VALUES (9007199254740993)')")
         # a tile in which the whole square lies, with few and with many triangles
         for zoom, tile_x, tile_y in ((8, 133, 90), (0, 0, 0)):
             encoded = tile(f"abacus_tile_vector('shore', {zoom}, {tile_x}, {tile_y})")

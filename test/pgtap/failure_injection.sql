@@ -238,6 +238,12 @@ SELECT pg_temp.inject('sampled picture tile', $$ SELECT abacus_tile_picture('fie
 SELECT pg_temp.inject('vector tile', $$ SELECT abacus_tile_vector('field', 2, 1, 1, world => '{0,0,400}', attribute => 'height', contours => 20) $$, 'SELECT true');
 SELECT pg_temp.inject('vector tile of many', $$ SELECT abacus_tile_vector('field', 0, 0, 0, world => '{-2000,-2000,4000}', attribute => 'height', contours => 20) $$, 'SELECT true');
 SELECT pg_temp.inject('terrain tile', $$ SELECT abacus_tile_terrain('field', 0, 0, 0, world => '{0,0,400}', size => 64, attribute => 'height') $$, 'SELECT true');
+SELECT abacus_triangulate('shire', 'SELECT * FROM points', lines => 'SELECT 1, n, i FROM unnest(ARRAY[100, 200, 300, 100]) WITH ORDINALITY AS u (i, n)', attributes => '{height}');
+SELECT abacus_region('shire', $$VALUES ('farm', 1)$$);
+SELECT pg_temp.inject('picture with regions', $$ SELECT abacus_draw('shire', 40, regions => true, lines => true) $$, 'SELECT true');
+SELECT pg_temp.inject('sampled tile with regions', $$ SELECT abacus_tile_picture('shire', 0, 0, 0, world => '{0,0,1010}', size => 10, regions => true, lines => true) $$, 'SELECT true');
+SELECT pg_temp.inject('vector tile with regions', $$ SELECT abacus_tile_vector('shire', 1, 0, 0, world => '{0,0,1010}') $$, 'SELECT true');
+SELECT pg_temp.inject('region at places', $$ DO 'BEGIN SET LOCAL abacus.cache_size = ''3MB''; PERFORM abacus_region_at(''shire'', x, y) FROM points; END' $$, 'SELECT true');
 SELECT pg_temp.inject('tile functions', $$ SELECT abacus_tiles('field', world => '{0,0,400}', attribute => 'height') $$, $$ SELECT to_regproc('field_mvt') IS NULL $$);
 SELECT abacus_triangulate('solid', 'SELECT id, x, y, (id * 37) % 101 FROM points', dimension => 3);
 SELECT pg_temp.inject('draw a section', $$ SELECT abacus_draw_section('solid', '{0,0,50}', '{1,2,3}', 100) $$, 'SELECT true');

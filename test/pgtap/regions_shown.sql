@@ -129,6 +129,7 @@ SELECT lives_ok($$SELECT abacus_draw('green', 60, regions => true, lines => true
 -- vector tiles have names of regions for those who may read them
 SELECT is(position('lawn'::bytea IN abacus_tile_vector('green', 0, 0, 0, world => '{0,0,40}')), 0, 'a vector tile without names');
 SELECT isnt(position('soft'::bytea IN abacus_tile_vector('green', 0, 0, 0, world => '{0,0,40}')), 0, 'but with fixed edges');
+SELECT is(position('line'::bytea IN abacus_tile_vector('green', 0, 0, 0, world => '{0,0,40}')), 0, 'without their lines, which the reader may not read');
 SELECT throws_ok($$SELECT abacus_region_at('green', 20, 20)$$, '42501', 'permission denied for table park_regions');
 SELECT is(abacus_region_at('green', 1, 1), NULL, 'nothing is read where no region is');
 RESET ROLE;
@@ -138,12 +139,22 @@ SELECT isnt(position('lawn'::bytea IN abacus_tile_vector('green', 0, 0, 0, world
 RESET ROLE;
 SELECT is(position('lawn'::bytea IN abacus_tile_vector('green', 4, 0, 0, world => '{0,0,40}')), 0, 'but not where it is not');
 SELECT isnt(position('soft'::bytea IN abacus_tile_vector('green', 0, 0, 0, world => '{0,0,40}')), 0, 'and has fixed edges');
+SELECT isnt(position('line'::bytea IN abacus_tile_vector('green', 0, 0, 0, world => '{0,0,40}')), 0, 'with their lines for others');
 SELECT is(position('hard'::bytea IN abacus_tile_vector('green', 4, 0, 15, world => '{0,0,40}')), 0, 'where they are');
+SELECT set_config(name, 'on', true) FROM pg_settings WHERE name IN ('force_parallel_mode', 'debug_parallel_query');
+SELECT isnt(position('line'::bytea IN abacus_tile_vector('green', 0, 0, 0, world => '{0,0,40}')), 0, 'in a parallel worker, too');
+SELECT is(abacus_region_at('green', 20, 20), 'lawn', 'a region in a parallel worker');
+SELECT set_config(name, 'off', true) FROM pg_settings WHERE name IN ('force_parallel_mode', 'debug_parallel_query');
 SELECT abacus_unregion('green', 'lawn');
 SELECT is(position('lawn'::bytea IN abacus_tile_vector('green', 0, 0, 0, world => '{0,0,40}')), 0, 'a region that has gone is in no tile');
 SELECT abacus_unconstrain('green', 'VALUES (1), (2)');
 SELECT is(position('fixed'::bytea IN abacus_tile_vector('green', 0, 0, 0, world => '{0,0,40}')), 0, 'nor are lines that have gone');
-SELECT abacus_constrain('green', 'VALUES (1, 1, 505), (1, 2, 3505)');
+SELECT abacus_constrain('green', 'SELECT y, x, 100 * x + y FROM generate_series(1, 40) AS x, generate_series(1, 40) AS y');
+SELECT isnt(position('line'::bytea IN abacus_tile_vector('green', 0, 0, 0, world => '{0,0,40}')), 0, 'many lines are told apart');
+SET LOCAL work_mem = '64kB';
+SELECT is(position('line'::bytea IN abacus_tile_vector('green', 0, 0, 0, world => '{0,0,40}')), 0, 'but not without room for them');
+SELECT isnt(position('hard'::bytea IN abacus_tile_vector('green', 0, 0, 0, world => '{0,0,40}')), 0, 'when their edges are there all the same');
+RESET work_mem;
 SELECT is(pg_temp.messages($$SELECT abacus_draw('green', 60, regions => true)$$), md5(abacus_draw('green', 60)::text), 'a region that has gone');
 SELECT abacus_octree_create('leaves', 2, '{0,0}', '{8,8}');
 SELECT is(pg_temp.messages($$SELECT abacus_draw('leaves', 20, regions => true, lines => true)$$), md5(abacus_draw('leaves', 20)::text), 'an octree has neither');

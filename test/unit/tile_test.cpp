@@ -165,7 +165,7 @@ void read_layer(protozero::pbf_reader layer, ReadTile &tile) {
 ReadTile read_vector(MeshOf<2> &mesh, const abacus_tile &tile, const abacus_tile_vector_kind &kind,
                      std::size_t *bytes = nullptr) {
     const Host host = mesh.host.host();
-    const Png encoded = vector_tile(host, mesh.header, tile, kind, nullptr, plenty);
+    const Png encoded = vector_tile(host, mesh.header, tile, kind, {}, plenty).bytes;
     if (bytes != nullptr) *bytes = encoded.size();
     ReadTile result;
     protozero::pbf_reader reader(reinterpret_cast<const char *>(encoded.data()), encoded.size());
@@ -621,11 +621,10 @@ TEST(Tile, NeedsLatitudes) {
     MeshOf<2> mesh(0);
     ASSERT_EQ(mesh.insert({{1, {0, 0}, {}}, {2, {1000, 0}, {}}, {3, {0, 1000}, {}}}), ABACUS_OK);
     const Host host = mesh.host.host();
-    EXPECT_EQ(
-        error_of([&] {
-            vector_tile(host, mesh.header, {0, 0, 0, 1, {}, {}}, {-1, 0, {}}, nullptr, plenty);
-        }),
-        "the mesh is not in longitude and latitude");
+    EXPECT_EQ(error_of([&] {
+                  vector_tile(host, mesh.header, {0, 0, 0, 1, {}, {}}, {-1, 0, {}}, {}, plenty);
+              }),
+              "the mesh is not in longitude and latitude");
 }
 
 TEST(Tile, MemoryIsGivenBack) {

@@ -248,11 +248,11 @@ mesh_find_vertex_table(Oid mesh)
 	return find_side_table(mesh, &vertex_side, &(bool) {false});
 }
 
-/* The same for the table of its regions. */
+/* The same for the table of its regions, or of its lines. */
 Oid
-mesh_find_regions_table(Oid mesh)
+mesh_find_rows_table(Oid mesh, bool of_regions)
 {
-	return find_side_table(mesh, &regions_side, &(bool) {false});
+	return find_side_table(mesh, of_regions ? &regions_side : &lines_side, &(bool) {false});
 }
 
 /* The mesh whose simplex table or vertex table this is; InvalidOid if none. */

@@ -41,7 +41,7 @@ extern void mesh_unlock_for_session(MeshLocks *locks);
 extern Oid	mesh_of_table(Oid relid);
 extern Oid	mesh_table_owner(Oid relid);
 extern Oid	mesh_find_vertex_table(Oid mesh);
-extern Oid	mesh_find_regions_table(Oid mesh);
+extern Oid	mesh_find_rows_table(Oid mesh, bool of_regions);
 extern Oid	mesh_vertex_table(Relation mesh, MeshAccess access);
 extern void mesh_bind_object(Oid class, Oid object, Oid mesh);
 extern void mesh_bind_table(Oid mesh, Oid table);

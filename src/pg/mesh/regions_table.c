@@ -174,7 +174,7 @@ struct RegionNames
 bool
 region_names_may_read(Oid mesh, Oid user)
 {
-	Oid			table = mesh_find_regions_table(mesh);
+	Oid			table = mesh_find_rows_table(mesh, true);
 
 	return OidIsValid(table) && pg_class_aclcheck(table, user, ACL_SELECT) == ACLCHECK_OK &&
 		check_enable_rls(table, user, true) != RLS_ENABLED;

@@ -121,11 +121,23 @@ drawing_overlay(FunctionCallInfo fcinfo, int regions, int lines, abacus_drawing 
 	drawing->lines = drawing_flag(fcinfo, lines);
 }
 
-/* Ends the reading; converts the picture to a bytea. */
-bytea *
-drawing_finish(Host *host, const abacus_picture *picture)
+/* Appends a part to a bytea, and frees it. */
+static char *
+append(Host *host, char *to, const abacus_picture *part)
 {
-	size_t		size = picture->size;
+	if (part->size > 0)			/* an empty vector tile has none */
+	{
+		memcpy(to, part->png, part->size);
+		host->table.resize(host, part->png, 0);
+	}
+	return to + part->size;
+}
+
+/* Ends the reading; converts the picture, whose bytes are two parts, to a bytea. */
+bytea *
+drawing_finish_both(Host *host, const abacus_picture *first, const abacus_picture *second)
+{
+	size_t		size = first->size + second->size;
 	bytea	   *result;
 
 	if (size > MaxAllocSize - VARHDRSZ)
@@ -134,12 +146,17 @@ drawing_finish(Host *host, const abacus_picture *picture)
 				 errhint("Draw fewer pixels.")));
 	result = palloc(VARHDRSZ + size);
 	SET_VARSIZE(result, VARHDRSZ + size);
-	if (size > 0)				/* an empty vector tile has none */
-	{
-		memcpy(VARDATA(result), picture->png, size);
-		host->table.resize(host, picture->png, 0);
-	}
+	(void) append(host, append(host, VARDATA(result), first), second);
 	host_release(host);
 	host_destroy(host);
 	return result;
+}
+
+/* The same for one part. */
+bytea *
+drawing_finish(Host *host, const abacus_picture *picture)
+{
+	const abacus_picture none = {0};
+
+	return drawing_finish_both(host, picture, &none);
 }

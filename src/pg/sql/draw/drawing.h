@@ -21,6 +21,7 @@ extern double drawing_interval(FunctionCallInfo fcinfo, int argument);
 extern void drawing_contours(FunctionCallInfo fcinfo, int argument, abacus_drawing *drawing);
 extern bool drawing_flag(FunctionCallInfo fcinfo, int argument);
 extern void drawing_overlay(FunctionCallInfo fcinfo, int regions, int lines, abacus_drawing *drawing);
+extern bytea *drawing_finish_both(Host *host, const abacus_picture *first, const abacus_picture *second);
 extern bytea *drawing_finish(Host *host, const abacus_picture *picture);
 
 #endif

@@ -21,6 +21,7 @@
 #include "pg/sql/arguments/attribute.h"
 #include "pg/sql/arguments/extent_arguments.h"
 #include "pg/sql/draw/drawing.h"
+#include "pg/sql/draw/tile_lines.h"
 
 SQL_FUNCTION(abacus_sql_tile_picture);
 SQL_FUNCTION(abacus_sql_tile_vector);
@@ -268,8 +269,10 @@ abacus_sql_tile_vector(PG_FUNCTION_ARGS)
 	abacus_tile_memory memory;
 	abacus_tile_vector_kind kind = {0};
 	TileNames	names;
-	const abacus_region_names by_number = {find_name, &names};
+	abacus_tile_words words = {.context = &names};
 	abacus_picture bytes = {0};
+	abacus_picture lines = {0};
+	int32		has_triangles;
 	Reader	   *reader = tile_begin(fcinfo, &tile, &memory);
 	Host	   *host;
 
@@ -282,9 +285,18 @@ abacus_sql_tile_vector(PG_FUNCTION_ARGS)
 					 &kind.extent);
 	names.host = host;
 	names.regions = read_names(PG_GETARG_OID(TILE_MESH), &reader->header.facts);
-	host_run(host, abacus_tile_vector, &host->table, &reader->header.facts, &tile, &kind,
-			 names.regions == NULL ? NULL : &by_number, &memory, &bytes);
-	PG_RETURN_BYTEA_P(drawing_finish(host, &bytes));
+	words.region_name = names.regions == NULL ? NULL : find_name;
+	words.lines_apart = tile_lines_may_read(PG_GETARG_OID(TILE_MESH), &reader->header.facts.census);
+	host_run(host, abacus_tile_vector, &host->table, &reader->header.facts, &tile, &kind, &words, &memory,
+			 &bytes, &has_triangles);
+	if (has_triangles && words.lines_apart && !tile_lines_layer(reader, &tile, &kind.extent, &lines))
+	{
+		words.lines_apart = false;
+		host->table.resize(host, bytes.png, 0);
+		host_run(host, abacus_tile_vector, &host->table, &reader->header.facts, &tile, &kind, &words, &memory,
+				 &bytes, &has_triangles);
+	}
+	PG_RETURN_BYTEA_P(drawing_finish_both(host, &bytes, &lines));
 }
 
 /*
