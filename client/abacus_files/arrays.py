@@ -49,7 +49,7 @@ class Mesh:
         (self.srid,), = session.all(f"SELECT abacus_srid({self.sql})::int8", ["int8"])
         self.axes = "xyz"[: self.dimension]
         self.within = None  # an argument of SQL, of a part of a mesh
-        self.cells_sql, self.facets_sql = f"abacus_cells({self.sql})", f"abacus_facets({self.sql})"
+        self.cells_sql = f"abacus_cells({self.sql})"
 
     def numbered_vertices(self, alias="numbered"):
         return f"abacus_numbered_vertices({self.sql}) AS {alias}"
@@ -129,7 +129,7 @@ class Mesh:
         numbers = " ".join(f"JOIN numbered AS c{n} ON c{n}.id = v{n} AND "
                            + " AND ".join(f"c{n}.{axis} = corners[{n + 1}][{k + 1}]" for k, axis in enumerate(self.axes)) for n in corners)
         query = (f"WITH numbered AS MATERIALIZED (SELECT number, id, {', '.join(self.axes)} FROM {self.numbered_vertices()}) "
-                 f"SELECT marker::int8, {', '.join(f'c{n}.number' for n in corners)} FROM {self.facets_sql} {numbers}")
+                 f"SELECT marker::int8, {', '.join(f'c{n}.number' for n in corners)} FROM abacus_facets({self.sql}) {numbers}")
         for chunk in self.session.chunks(query, ["int8"] * (1 + self.dimension)):
             yield table_of(chunk, 1, self.dimension, "<i8"), chunk["f0"].astype("<i4")
 

@@ -1,8 +1,9 @@
 """A mesh whose triangles have the number of their region as a label; and a region alone: its triangles, and their vertices, numbered anew."""
+import numpy
+
 from .arrays import Mesh, unlike
 from .psql import Failed, literal
 
-SIDES = "(VALUES (1, 2), (2, 3), (3, 1), (2, 1), (3, 2), (1, 3)) AS side (i, j)"
 LABEL = "region"
 
 
@@ -41,12 +42,9 @@ class Part(Asked):
         self.region = region
         self.within = f"within => {literal(region)}"
         self.cells_sql = f"abacus_cells({self.sql}, {self.within})"
-        sides = f"SELECT corners[i][1], corners[i][2], corners[j][1], corners[j][2] FROM {self.cells_sql}, {SIDES}"
-        self.facets_sql = (f"(SELECT * FROM abacus_facets({self.sql}) WHERE (corners[1][1], corners[1][2], corners[2][1], corners[2][2]) IN ({sides})) "
-                           "AS within_region")
         self.simplices, = self.count(self.cells_sql)
         self.vertices, = self.count(self.numbered_vertices())
-        self.facets = self.facets and self.count(self.facets_sql)[0]
+        self.facets = self.facets and sum(len(markers) for _, markers in self.marked_facets())
 
     def count(self, rows):
         return self.session.all(f"SELECT count(*) FROM {rows}", ["int8"])[0]
@@ -55,6 +53,20 @@ class Part(Asked):
         corners = f"SELECT corners[i][1], corners[i][2] FROM {self.cells_sql}, generate_series(1, 3) AS i"
         return (f"(SELECT row_number() OVER (ORDER BY number) - 1 AS number, id, x, y, attributes FROM abacus_numbered_vertices({self.sql}) "
                 f"WHERE (x, y) IN ({corners}) ORDER BY 1) AS {alias}")
+
+    def keys(self, edges):
+        """A number for each edge, whichever end comes first."""
+        return edges.min(axis=1) * self.vertices + edges.max(axis=1)
+
+    def marked_facets(self):
+        """Those between two vertices of the region that are edges of its triangles, which are held in memory."""
+        if not self.facets:
+            return
+        sides = [numpy.unique(numpy.concatenate([self.keys(corners[:, [n, (n + 1) % 3]]) for n in range(3)])) for _, corners, _ in self.cells()]
+        inside = numpy.unique(numpy.concatenate(sides or [numpy.empty(0, numpy.int64)]))
+        for corners, markers in super().marked_facets():
+            kept = numpy.isin(self.keys(corners), inside)
+            yield corners[kept], markers[kept]
 
     def whole_lines(self):
         """The lines that lie in the region with all of their edges."""
