@@ -35,6 +35,8 @@ class Mesh:
 
     `attributes` of points, `labels` of simplices, `facets`: how many have markers."""
 
+    but = ""  # what a file holds of regions, if it does not hold regions
+
     def __init__(self, session, name, progress=None):
         self.session, self.progress, self.name = session, progress, name
         self.sql = f"{literal(name)}::regclass"
@@ -46,9 +48,20 @@ class Mesh:
         (self.facets,), = session.all(f"SELECT count(*) FROM abacus_facets({self.sql})", ["int8"])
         (self.srid,), = session.all(f"SELECT abacus_srid({self.sql})::int8", ["int8"])
         self.axes = "xyz"[: self.dimension]
+        self.within = None  # an argument of SQL, of a part of a mesh
+        self.cells_sql = f"abacus_cells({self.sql})"
 
-    def numbered_vertices(self):
-        return f"abacus_numbered_vertices({self.sql})"
+    def numbered_vertices(self, alias="numbered"):
+        return f"abacus_numbered_vertices({self.sql}) AS {alias}"
+
+    def numbered_cells(self, columns):
+        return f"SELECT {', '.join(['code', *(f'n{n}' for n in range(self.corners)), *columns])} FROM abacus_numbered_simplices({self.sql})"
+
+    def lines(self):
+        return f"abacus_lines({self.sql})"
+
+    def region_names(self):
+        return self.session.texts(f"SELECT region FROM abacus_regions({self.sql}) ORDER BY number") if self.dimension == 2 else []
 
     def id_range(self):
         """The least and the greatest id."""
@@ -62,12 +75,13 @@ class Mesh:
         """What no file holds, as texts, but for what this one `holds`."""
         lines, regions = 0, []
         if self.dimension == 2:
-            (lines,), = self.session.all(f"SELECT count(*) FROM abacus_edges({self.sql}, fixed => true)", ["int8"])
-            regions = self.session.texts(f"SELECT region FROM abacus_regions({self.sql}) ORDER BY number") if lines else []
+            within = f", {self.within}" if self.within else ""
+            (lines,), = self.session.all(f"SELECT count(*) FROM abacus_edges({self.sql}, fixed => true{within})", ["int8"])
+            regions = self.region_names()
         return [text for what, count, text in (
             ("repeated", self.repeated, f"{self.repeated} points that equal a vertex"), ("waiting", self.waiting, f"{self.waiting} points that wait to be inserted"),
             ("lines", lines, f"lines, to which {lines} edges belong, and that these are fixed"),
-            ("regions", len(regions), f"regions ({', '.join(regions)})"), ("srid", self.srid, f"the SRID {self.srid}")) if count > 0 and what not in holds]
+            ("regions", len(regions), f"regions ({', '.join(regions)}){self.but}"), ("srid", self.srid, f"the SRID {self.srid}")) if count > 0 and what not in holds]
 
     def not_delaunay(self):
         """What a file of points and lines loses of a mesh that was made elsewhere, as texts."""
@@ -77,7 +91,7 @@ class Mesh:
     def of_label(self, n, greatest):
         """Whether the numbers of a label are whole and not beyond this one; and how many simplices have none."""
         whole, missing = self.session.all(f"SELECT (count(*) FILTER (WHERE labels[{n + 1}] <> trunc(labels[{n + 1}]) OR abs(labels[{n + 1}]) > {greatest}) = 0)"
-                                          f"::int::int8, count(*) FILTER (WHERE labels[{n + 1}] IS NULL) FROM abacus_cells({self.sql})", ["int8"] * 2)[0]
+                                          f"::int::int8, count(*) FILTER (WHERE labels[{n + 1}] IS NULL) FROM {self.cells_sql}", ["int8"] * 2)[0]
         return bool(whole), missing
 
     def will_read(self, points, cells=1):
@@ -104,8 +118,7 @@ class Mesh:
     def cells(self):
         """Chunks of (codes, numbers of the corners n x (dimension + 1), from 0, labels n x labels); a missing label is NaN."""
         labels = values_of("labels", len(self.labels))
-        query = f"SELECT {', '.join(['code', *(f'n{n}' for n in range(self.corners)), *labels])} FROM abacus_numbered_simplices({self.sql})"
-        for chunk in self.chunks(query, ["int8"] * (self.corners + 1) + ["float8"] * len(labels)):
+        for chunk in self.chunks(self.numbered_cells(labels), ["int8"] * (self.corners + 1) + ["float8"] * len(labels)):
             yield (chunk["f0"].astype("<i8"), table_of(chunk, 1, self.corners, "<i8"), table_of(chunk, 1 + self.corners, len(labels), "<f8"))
 
     def marked_facets(self):

@@ -13,7 +13,7 @@ class Corners:
 
     def __init__(self, mesh, z=None):
         query = (f"SELECT line, coalesce(v.number, -1), coalesce(v.id, -1), coalesce(part, -1), (kind = 'soft')::int::int8, l.x, l.y, "
-                 f"{'0::float8' if z is None else values_of('v.attributes', z + 1)[z]} FROM abacus_lines({mesh.sql}) AS l LEFT JOIN {mesh.numbered_vertices()} AS v ON v.x = l.x AND v.y = l.y ORDER BY line, position")
+                 f"{'0::float8' if z is None else values_of('v.attributes', z + 1)[z]} FROM {mesh.lines()} AS l LEFT JOIN {mesh.numbered_vertices('v')} ON v.x = l.x AND v.y = l.y ORDER BY line, position")
         parts = [(table_of(chunk, 0, 5, "<i8"), table_of(chunk, 5, 3, "<f8")) for chunk in mesh.session.chunks(query, ["int8"] * 5 + ["float8"] * 3)]
         whole = numpy.concatenate([numpy.empty((0, 5), "<i8"), *(part for part, _ in parts)])
         reals = numpy.concatenate([numpy.empty((0, 3)), *(part for _, part in parts)])
@@ -92,7 +92,7 @@ class Where:
 
 def regions(mesh):
     """[(name, number, lines, seeds)] of the regions; a region has lines, which are its outlines, or seeds."""
-    names = mesh.session.texts(f"SELECT region FROM abacus_regions({mesh.sql}) ORDER BY number")
+    names = mesh.region_names()
     if not names:
         return []
     table, = mesh.session.texts(f"SELECT format('%I.%I', nspname, relname || '_regions') FROM pg_class c JOIN pg_namespace n ON n.oid = relnamespace "

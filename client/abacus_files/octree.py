@@ -1,6 +1,7 @@
 """An octree or a quadtree as chunks of arrays, as writers take a mesh: its nodes, and its leaves as hexahedra or quadrangles."""
 from .arrays import Mesh, figures, table_of, unlike, values_of
-from .psql import literal
+from .part import Labelled, Part
+from .psql import Failed, literal
 
 # abacus_octree_elements has corners with x fastest; files go around a face.
 AROUND = {2: [0, 1, 3, 2], 3: [0, 1, 3, 2, 4, 5, 7, 6]}
@@ -51,7 +52,14 @@ class Octree(Mesh):
             yield (chunk["f0"].astype("<i8"), table_of(chunk, 1, self.corners, "<i8"), table_of(chunk, 1 + self.corners, len(labels), "<f8"))
 
 
-def opened(session, name, progress=None):
-    """A mesh, or an octree."""
+def opened(session, name, region=None, labels=False):
+    """A mesh, a region of one, or an octree. `labels`: whether a file can say of triangles in which region they are."""
     leaves, = figures(session, f"{literal(name)}::regclass", ("leaves",))
-    return (Mesh if leaves < 0 else Octree)(session, name, progress)
+    if region is not None:
+        if leaves >= 0:
+            raise Failed("--within is for meshes in the plane")
+        return Part(session, name, region)
+    if leaves >= 0:
+        return Octree(session, name)
+    mesh = Mesh(session, name)
+    return Labelled(session, name) if labels and mesh.region_names() else mesh

@@ -5,6 +5,7 @@ from .held import loss
 from .psql import Failed
 
 suffixes = (".2dm",)
+holds = ("labels",)
 MATERIAL = "material"
 GREATEST = (1 << 31) - 1
 

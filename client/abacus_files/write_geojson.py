@@ -11,6 +11,7 @@ from .held import loss
 from .psql import Failed
 
 suffixes = (".geojsonl", ".geojsons", ".geojsonseq")
+holds = ("labels",)
 LONGITUDE_LATITUDE = 4326
 
 
@@ -88,7 +89,7 @@ def write(mesh, file, z):
     count = len(mesh.attributes)
     columns = places.columns() + [f"coalesce(\"values\"[{i + 1}][{k + 1}], 'NaN')" for i in range(3) for k in range(count)]
     columns += values_of("labels", len(mesh.labels))
-    query = f"SELECT code, v0, v1, v2, {', '.join(columns)} FROM {places.source(f'abacus_cells({mesh.sql})')}"
+    query = f"SELECT code, v0, v1, v2, {', '.join(columns)} FROM {places.source(mesh.cells_sql)}"
     types = ["int8"] * 4 + ["float8"] * len(columns)
     fields = [f"f{n}" for n in range(len(types))]
     names = unlike(mesh.attributes + mesh.labels, ("code", "v0", "v1", "v2"))

@@ -65,12 +65,13 @@ def plain(name):
 
 
 def boundaries(mesh):
+    kept = set(mesh.session.texts(f"SELECT DISTINCT line::text FROM {mesh.lines()} AS l"))
     for name, _, lines, seeds in regions(mesh):
-        of = {"lines": " ".join(map(str, lines))} if lines else {"seeds": " ".join(repr(value) for seed in seeds for value in seed)}
+        of = {} if not kept.issuperset(map(str, lines)) or seeds and mesh.within else {"lines": " ".join(map(str, lines))} if lines else {"seeds": " ".join(repr(value) for seed in seeds for value in seed)}
         for ring in rings(mesh, name):
             yield (f'<Boundary bndType="{"void" if is_void(ring) else "outer"}" edgeTrim="true" name={quoteattr(plain(name))}>'
                    f'<PntList2D>{" ".join(map(repr, ring[:, ::-1].reshape(-1).tolist()))}</PntList2D>{feature(**of)}</Boundary>\n')
-            of = {"lines": ""}  # those of the first ring are those of the region
+            of = {"lines": ""} if of else of  # those of the first ring are those of the region
 
 
 def element(name, parts):

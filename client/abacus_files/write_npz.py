@@ -16,6 +16,7 @@ from .held import loss
 from .psql import Failed
 
 suffixes = (".npz",)
+holds = ("labels",)
 
 
 @contextlib.contextmanager

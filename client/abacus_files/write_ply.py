@@ -6,6 +6,7 @@ from .held import doubles_hold_ids, loss
 from .psql import Failed
 
 suffixes = (".ply",)
+holds = ("labels",)
 AXES = ("x", "y", "z")
 LIST = "vertex_indices"
 

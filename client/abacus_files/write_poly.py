@@ -76,6 +76,8 @@ def write(mesh, file, z):
         raise Failed(".poly has points and segments in the plane: use .vtu or .npz")
     if z is not None:
         raise Failed(".poly has all attributes of points, and no third coordinate: leave out --z")
+    if mesh.within:
+        raise Failed(".poly has no triangles, so none of a region: leave out --within")
     by_ids = numbered_by_ids(mesh)
     write_points(mesh, file, by_ids)
     write_segments(mesh, file, by_ids)

@@ -7,6 +7,7 @@ from .held import loss
 from .series import Series, Step
 
 suffixes = (".pvd",)
+holds = ("labels",)
 
 
 def write(mesh, file, z, query):

@@ -10,6 +10,7 @@ from .arrays import unlike
 from .held import loss
 
 suffixes = (".vtu",)
+holds = ("labels",)
 # {(dimension, corners): VTK's type}: line, triangle, quad, tetra, hexahedron
 TYPES = {(1, 2): 3, (2, 3): 5, (2, 4): 9, (3, 4): 10, (3, 8): 12}
 

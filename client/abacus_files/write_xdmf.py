@@ -12,6 +12,7 @@ from .series import Series, Step
 from .xdmf_kinds import COUNTED, KINDS
 
 suffixes = (".xdmf", ".xmf")
+holds = ("labels",)
 # {(dimension, corners): the kind}
 OF = {(1, 2): "line", (2, 3): "triangle", (2, 4): "quad", (3, 4): "tetra", (3, 8): "hexahedron"}
 
