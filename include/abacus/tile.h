@@ -101,6 +101,7 @@ typedef struct abacus_tile_edge
 /* The layer fixed of a vector tile, to be appended to it: of edges, whose order does not matter. */
 ABACUS_API abacus_status abacus_tile_fixed(const abacus_host *host, const abacus_facts *facts,
 										   const abacus_tile *tile,
+										   const abacus_extent *extent,
 										   const abacus_tile_edge *edges, uint64_t count,
 										   abacus_picture *layer, abacus_error *error);
 

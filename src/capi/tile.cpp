@@ -74,13 +74,14 @@ abacus_status abacus_tile_window(const abacus_facts *facts, const abacus_tile *t
 }
 
 abacus_status abacus_tile_fixed(const abacus_host *host, const abacus_facts *facts,
-                                const abacus_tile *tile, const abacus_tile_edge *edges,
-                                uint64_t count, abacus_picture *layer, abacus_error *error) {
+                                const abacus_tile *tile, const abacus_extent *extent,
+                                const abacus_tile_edge *edges, uint64_t count,
+                                abacus_picture *layer, abacus_error *error) {
     return abacus::guard(error, [&] {
         require_plane(*facts);
         const abacus::Host wrapped(*host);
-        abacus::Png bytes =
-            abacus::fixed_layer(wrapped, *facts, *tile, {edges, static_cast<std::size_t>(count)});
+        abacus::Png bytes = abacus::fixed_layer(wrapped, *facts, *tile, *extent,
+                                                {edges, static_cast<std::size_t>(count)});
         const bool is_blank = bytes.size() == 0;
         return hand_over(std::move(bytes), is_blank, layer);
     });

@@ -78,8 +78,7 @@ public:
 
 private:
     explicit Polygon(const Memory &memory)
-        : memory_(memory), edges_(memory), edge_tree_(memory), parts_(memory),
-          part_tree_(memory) {}
+        : memory_(memory), edges_(memory), edge_tree_(memory), parts_(memory), part_tree_(memory) {}
     void add_edge(const Point<2> &a, const Point<2> &b);
     void finish(const Host &host);
 

@@ -89,8 +89,7 @@ public:
                    Canvas &canvas)
         : attribute_(static_cast<std::uint32_t>(std::max(drawing.attribute, 0))),
           has_attribute_(drawing.attribute >= 0), extent_(without_polygon(drawing.extent)),
-          plane_(plane),
-          samples_(samples), canvas_(canvas) {}
+          plane_(plane), samples_(samples), canvas_(canvas) {}
 
     std::size_t words() const override { return sizeof(Sample) / 8; }
     bool is_quick() const override { return true; }

@@ -93,8 +93,7 @@ private:
     /// What the tile shows has another border than the mesh.
     bool is_part() const { return kind_.extent.region != no_region || polygon_; }
     /// Calls visit(a, b) for the parts of a segment that count, in units of the tile.
-    template <class Visit>
-    void each_part(const Point<2> &a, const Point<2> &b, Visit visit) const {
+    template <class Visit> void each_part(const Point<2> &a, const Point<2> &b, Visit visit) const {
         if (!polygon_) return visit(a, b);
         polygon_->cut(a, b, [&](const Polygon::Stretch &part) { visit(part.first, part.last); });
     }
@@ -198,10 +197,9 @@ void Maker::sample() {
     constexpr std::uint32_t points = squares + 3; // from the corner of the square beside the tile
     // Samples are at the centres of pixels, so the box extends half a square further.
     const Box<2> box = window_.wider(1.5 / squares);
-    ValueRaster<2> rows =
-        tile_samples(host_, facts_, window_, box, points,
-                     {static_cast<std::uint32_t>(kind_.attribute), without_polygon(kind_.extent)},
-                     memory_);
+    ValueRaster<2> rows = tile_samples(
+        host_, facts_, window_, box, points,
+        {static_cast<std::uint32_t>(kind_.attribute), without_polygon(kind_.extent)}, memory_);
     constexpr double step = double{tile_extent} / squares;
     std::array<double, points> above{}, here{};
     for (std::uint32_t y = 0; y < points; ++y) {
@@ -303,7 +301,7 @@ void Maker::add_triangle(VectorLayer &layer, std::size_t n,
     std::int64_t area = 0; // twice that of the reversed ring
     for (std::size_t i = 0, j = corners - 1; i < corners; j = i++)
         area += std::int64_t{ring[i].x} * ring[j].y - std::int64_t{ring[j].x} * ring[i].y;
-    if (area == 0 || (area < 0 && !polygon_)) return; // flat after rounding
+    if (area == 0 || (area < 0 && !polygon_)) return;                 // flat after rounding
     if (area > 0) std::reverse(ring.begin(), ring.begin() + corners); // clockwise on the screen
     layer.begin_polygon({ring.data(), corners});
     const Triangle &triangle = triangles_[n];
@@ -433,7 +431,7 @@ VectorTile vector_tile(const Host &host, const abacus_facts &facts, const abacus
 }
 
 Png fixed_layer(const Host &host, const abacus_facts &facts, const abacus_tile &tile,
-                std::span<const abacus_tile_edge> edges) {
+                const abacus_extent &extent, std::span<const abacus_tile_edge> edges) {
     const TileWindow window(tile, facts);
     Arena<LineKind> lines(host); // numbered, since a level is a double
     for (const abacus_tile_edge &edge : edges) lines.push_back({edge.line, edge.is_hard != 0});
@@ -448,9 +446,15 @@ Png fixed_layer(const Host &host, const abacus_facts &facts, const abacus_tile &
     for (const abacus_tile_edge &edge : sorted) {
         const auto *const line =
             std::lower_bound(lines.begin(), lines.end(), LineKind{edge.line, edge.is_hard != 0});
-        segments.add(static_cast<double>(line - lines.begin()),
-                     in_tile(window, {edge.ends[0], edge.ends[1]}),
-                     in_tile(window, {edge.ends[2], edge.ends[3]}));
+        const Point<2> from{edge.ends[0], edge.ends[1]}, to{edge.ends[2], edge.ends[3]};
+        const auto add = [&](const Point<2> &a, const Point<2> &b) {
+            segments.add(static_cast<double>(line - lines.begin()), in_tile(window, a),
+                         in_tile(window, b));
+        };
+        if (const Polygon *polygon = polygon_of(extent))
+            polygon->cut(from, to, [&](const Polygon::Stretch &s) { add(s.first, s.last); });
+        else
+            add(from, to);
     }
     VectorLayer layer(host, "fixed", {"kind", "line"});
     segments.put_into(layer, [&](VectorLayer &l, double level) {

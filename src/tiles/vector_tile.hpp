@@ -34,6 +34,6 @@ VectorTile vector_tile(const Host &host, const abacus_facts &facts, const abacus
 
 /// The layer `fixed` alone, a feature for each line and kind.
 Png fixed_layer(const Host &host, const abacus_facts &facts, const abacus_tile &tile,
-                std::span<const abacus_tile_edge> edges);
+                const abacus_extent &extent, std::span<const abacus_tile_edge> edges);
 
 } // namespace abacus

@@ -72,7 +72,7 @@ tile_lines_layer(Reader *reader, const abacus_tile *tile, const abacus_extent *e
 	SPI_finish();
 	fits = fits && edges.count <= ABACUS_MOST_TILE_EDGES;
 	if (fits)
-		host_run(host, abacus_tile_fixed, &host->table, facts, tile, edges.edges, edges.count, layer);
+		host_run(host, abacus_tile_fixed, &host->table, facts, tile, extent, edges.edges, edges.count, layer);
 	pfree(edges.edges);
 	return fits;
 }
