@@ -179,6 +179,7 @@ CORE.query_whole += src/query/volume/volume.cpp
 CORE.query_whole += src/query/pictures/portrait.cpp
 CORE.query_whole += src/query/pictures/ray_portrait.cpp
 
+CORE.tiles += src/tiles/fixed_layer.cpp
 CORE.tiles += src/tiles/fixed_lines.cpp
 CORE.tiles += src/tiles/picture_tile.cpp
 CORE.tiles += src/tiles/terrain_tile.cpp
@@ -335,7 +336,7 @@ PG_SOURCES += src/pg/space/compact.c
 PG_SOURCES += src/pg/space/truncate.c
 PG_SOURCES += src/pg/space/vacuum.c
 PG_SOURCES += src/pg/space/vacuum_moves.c
-PG_SOURCES += src/pg/sql/arguments/area.c
+PG_SOURCES += src/pg/sql/arguments/area_argument.c
 PG_SOURCES += src/pg/sql/arguments/attribute.c
 PG_SOURCES += src/pg/sql/arguments/extent_arguments.c
 PG_SOURCES += src/pg/sql/arguments/interpolation.c

@@ -1,4 +1,5 @@
 // Tiles behind the C interface.
+#include "tiles/fixed_layer.hpp"
 #include "tiles/picture_tile.hpp"
 #include "tiles/terrain_tile.hpp"
 #include "tiles/vector_tile.hpp"

@@ -11,8 +11,6 @@
 #include "tiles/tile_lines.hpp"
 #include "tiles/tile_window.hpp"
 
-#include <span>
-
 namespace abacus {
 
 /// What a tile may have, in bytes, and in triangles with all of their corners.
@@ -31,9 +29,5 @@ struct VectorTile {
 VectorTile vector_tile(const Host &host, const abacus_facts &facts, const abacus_tile &tile,
                        const abacus_tile_vector_kind &kind, const abacus_tile_words &words,
                        const abacus_tile_memory &memory);
-
-/// The layer `fixed` alone, a feature for each line and kind.
-Png fixed_layer(const Host &host, const abacus_facts &facts, const abacus_tile &tile,
-                const abacus_extent &extent, std::span<const abacus_tile_edge> edges);
 
 } // namespace abacus

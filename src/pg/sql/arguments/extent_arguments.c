@@ -12,7 +12,7 @@
 #include "utils/memutils.h"
 
 #include "pg/mesh/regions_table.h"
-#include "pg/sql/arguments/area.h"
+#include "pg/sql/arguments/area_argument.h"
 #include "pg/geos/area_text.h"
 #include "pg/sql/arguments/extent_arguments.h"
 

@@ -1,5 +1,5 @@
 /*
- * area.h: polygons, prepared for questions.
+ * area_argument.h: polygons, prepared for questions.
  */
 #ifndef ABACUS_AREA_ARGUMENT_H
 #define ABACUS_AREA_ARGUMENT_H

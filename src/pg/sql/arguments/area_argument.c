@@ -1,5 +1,5 @@
 /*
- * area.c: polygons, prepared for questions to a mesh.
+ * area_argument.c: polygons, prepared for questions to a mesh.
  *
  * A function that is called for every row of a query usually gets the same polygon again. So the last
  * one is remembered.
@@ -10,7 +10,7 @@
 
 #include "pg/host/host.h"
 #include "pg/postgis/geometry_errors.h"
-#include "pg/sql/arguments/area.h"
+#include "pg/sql/arguments/area_argument.h"
 #include "pg/geos/area_text.h"
 
 static void
