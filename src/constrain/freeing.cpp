@@ -2,14 +2,18 @@
 
 #include "geometry/in_words.hpp"
 
+#include <algorithm>
+#include <string>
+
 namespace abacus {
 
 namespace {
 
-[[noreturn]] void throw_region_ends(const Point<2> &a, const Point<2> &b) {
+[[noreturn]] void throw_region_ends(RegionNumber region, const Point<2> &a, const Point<2> &b) {
     throw Error(ABACUS_ERROR_STATE, "a line is the border of a region",
-                "A region ends at the edge from " + in_words(a) + " to " + in_words(b) + ".",
-                "Find the regions with abacus_regions(). Remove the region first, with "
+                "The region with the number " + std::to_string(region) +
+                    " ends at the edge from " + in_words(a) + " to " + in_words(b) + ".",
+                "Find its name with abacus_regions(). Remove the region first, with "
                 "abacus_unregion().");
 }
 
@@ -43,9 +47,10 @@ Point<2> Freeing::free_edge(const Point<2> &from, const Point<2> &b) {
     const Fixed left = over_.kind(from, end);
     if (left == how) return end;
     const Link outer = cache_.cross(link_simplex(inner), link_facet(inner));
-    if (left == Fixed::no &&
-        cache_.region(link_simplex(inner)) != cache_.region(link_simplex(outer)))
-        throw_region_ends(from, end);
+    const RegionNumber here = cache_.region(link_simplex(inner)),
+                       there = cache_.region(link_simplex(outer));
+    if (left == Fixed::no && here != there)
+        throw_region_ends(here == no_region ? there : std::max(here, there), from, end);
     for (const Link side : {inner, outer}) {
         cache_.set_fixed(side, left);
         cache_.mark_dirty(link_simplex(side));

@@ -90,8 +90,8 @@ Image draw_regions(const abacus_drawing &drawing, Patch::Edge kind = Patch::Edge
     {
         const Host host = memory.host();
         Canvas canvas(host, drawing, drawing.range[0], drawing.range[1]);
-        Patch lower{{{0, 0}, {1, 0}, {1, 1}}, {0.5, 0.5, 0.5}}, upper{{{0, 0}, {1, 1}, {0, 1}}};
-        std::fill_n(upper.value, 3, 0.5);
+        Patch lower{{{0, 0}, {1, 0}, {1, 1}}, {0.5, 0.5, 0.5}},
+            upper{{{0, 0}, {1, 1}, {0, 1}}, {0.5, 0.5, 0.5}};
         lower.region = 1;
         upper.region = 2;
         lower.edge[1] = lower.edge[0] = upper.edge[1] = kind;
