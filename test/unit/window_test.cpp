@@ -106,7 +106,7 @@ template <int D> Positions<D> places(const abacus_simplex &s) {
 template <int D>
 std::multiset<Positions<D>> read(MeshOf<D> &mesh, const abacus_window &window, double max_edge) {
     const Host host = mesh.host.host();
-    CellScan<D> scan(host, mesh.header, window, {max_edge, 0});
+    CellScan<D> scan(host, mesh.header, window, {max_edge, 0, nullptr});
     std::multiset<Positions<D>> found;
     abacus_simplex simplex;
     while (scan.next(simplex, nullptr)) found.insert(places<D>(simplex));
