@@ -198,8 +198,8 @@ TEST(Polygon, CutsSegments) {
                 EXPECT_LT(last, s.from);
                 EXPECT_LT(s.from, s.to);
                 last = s.to;
-                if (s.from == 0) EXPECT_EQ(s.first, a);
-                if (s.to == 1) EXPECT_EQ(s.last, b);
+                EXPECT_TRUE(s.from > 0 || s.first == a);
+                EXPECT_TRUE(s.to < 1 || s.last == b);
             }
             for (int k = 0; k <= 16; ++k) { // shares that are exact
                 const double t = k / 16.0;
@@ -209,7 +209,7 @@ TEST(Polygon, CutsSegments) {
                         return s.from <= t && t <= s.to;
                     });
                 const int side = side_by_all(rings, p);
-                if (side != 0) EXPECT_EQ(is_in, side > 0) << t;
+                EXPECT_TRUE(side == 0 || is_in == (side > 0)) << t;
             }
         }
     }
