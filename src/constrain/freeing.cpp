@@ -11,8 +11,8 @@ namespace {
 
 [[noreturn]] void throw_region_ends(RegionNumber region, const Point<2> &a, const Point<2> &b) {
     throw Error(ABACUS_ERROR_STATE, "a line is the border of a region",
-                "The region with the number " + std::to_string(region) +
-                    " ends at the edge from " + in_words(a) + " to " + in_words(b) + ".",
+                "The region with the number " + std::to_string(region) + " ends at the edge from " +
+                    in_words(a) + " to " + in_words(b) + ".",
                 "Find its name with abacus_regions(). Remove the region first, with "
                 "abacus_unregion().");
 }

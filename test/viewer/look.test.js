@@ -33,6 +33,7 @@ test("legend, scale, coordinates and value under the pointer; the range of the v
     assert.ok(Math.abs(value - Number(psql(`SELECT abacus_interpolate('terrain', ${x}, ${y})`))) < 15, `${x} ${y} ${value}`);
     for (let i = 0; i < 2; ++i) await page.getByRole("button", { name: "Zoom in" }).click();
     await page.waitForTimeout(700);
+    await page.waitForSelector("#view[data-ready]");
     await display();
     const [picture] = await Promise.all([asks(/picture.*low=/), page.getByRole("button", { name: "From the view" }).click()]);
     const { searchParams } = new URL(picture.url()), [low, high] = ["low", "high"].map((name) => Number(searchParams.get(name)));
