@@ -3,10 +3,30 @@ import csv
 import io
 import pathlib
 import subprocess
+import tempfile
+import unittest
 
 import numpy
 
 REPOSITORY = pathlib.Path(__file__).resolve().parents[2]
+
+
+class InFolder(unittest.TestCase):
+    """Tests with files in a folder of their own."""
+
+    @classmethod
+    def setUpClass(cls):
+        cls.folder = tempfile.TemporaryDirectory()
+        cls.at = pathlib.Path(cls.folder.name)
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.folder.cleanup()
+
+    def file(self, name, text):
+        path = self.at / name
+        path.write_text(text)
+        return path
 
 
 class Refused(Exception):

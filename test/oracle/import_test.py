@@ -1,9 +1,7 @@
 """What abacus-import reads, without a database: files that VTK and meshio write, files by hand, and files that are cut off or wrong."""
 import itertools
-import pathlib
 import struct
 import sys
-import tempfile
 import time
 import unittest
 
@@ -60,16 +58,7 @@ def vtu_of(*pieces):
             + "".join(pieces) + "</UnstructuredGrid></VTKFile>")
 
 
-class Import(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.folder = tempfile.TemporaryDirectory()
-        cls.at = pathlib.Path(cls.folder.name)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.folder.cleanup()
-
+class Import(abacus.InFolder):
     def file(self, name, content):
         path = self.at / name
         path.write_bytes(content if isinstance(content, bytes) else content.encode())

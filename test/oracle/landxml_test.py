@@ -1,8 +1,6 @@
 """LandXML: surfaces come in, with faces, breaklines and boundaries; go out; and come back. Files that are wrong are refused with their lines."""
-import pathlib
 import subprocess
 import sys
-import tempfile
 import unittest
 import xml.etree.ElementTree
 
@@ -72,21 +70,7 @@ def content(mesh, z="z"):
         f"SELECT region, triangles, area, edges FROM abacus_regions('{mesh}')", f"SELECT * FROM abacus_check('{mesh}')")]
 
 
-class LandXML(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.folder = tempfile.TemporaryDirectory()
-        cls.at = pathlib.Path(cls.folder.name)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.folder.cleanup()
-
-    def file(self, name, text):
-        path = self.at / name
-        path.write_text(text)
-        return path
-
+class LandXML(abacus.InFolder):
     def imported(self, text, mesh, *options):
         path = self.file(f"{mesh}.xml", text)
         abacus.psql(f"DROP TABLE IF EXISTS {mesh} CASCADE")

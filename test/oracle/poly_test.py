@@ -1,8 +1,6 @@
 """Triangle's .poly: points, segments, holes and regions come in, go out, and come back; files that are wrong are refused with their lines."""
-import pathlib
 import subprocess
 import sys
-import tempfile
 import unittest
 
 import abacus
@@ -57,21 +55,7 @@ def content(mesh):
         f"SELECT * FROM abacus_check('{mesh}')")]
 
 
-class Poly(unittest.TestCase):
-    @classmethod
-    def setUpClass(cls):
-        cls.folder = tempfile.TemporaryDirectory()
-        cls.at = pathlib.Path(cls.folder.name)
-
-    @classmethod
-    def tearDownClass(cls):
-        cls.folder.cleanup()
-
-    def file(self, name, text):
-        path = self.at / name
-        path.write_text(text)
-        return path
-
+class Poly(abacus.InFolder):
     def imported(self, path, mesh):
         abacus.psql(f"DROP TABLE IF EXISTS {mesh} CASCADE")
         done = run("abacus-import", path, mesh)
