@@ -46,6 +46,10 @@ class Part(Asked):
         self.vertices, = self.count(self.numbered_vertices())
         self.facets = self.facets and sum(len(markers) for _, markers in self.marked_facets())
 
+    def is_region(self):
+        """Otherwise it is a polygon, which may cut triangles."""
+        return bool(self.session.all(f"SELECT count(*) FROM abacus_regions({self.sql}) WHERE region = {literal(self.region)}", ["int8"])[0][0])
+
     def count(self, rows):
         return self.session.all(f"SELECT count(*) FROM {rows}", ["int8"])[0]
 

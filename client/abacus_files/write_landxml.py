@@ -100,6 +100,8 @@ def write_points(mesh, file, z, by_ids):
 def write(mesh, file, z):
     if mesh.dimension != 2 or mesh.corners != 3:
         raise Failed("LandXML has surfaces of triangles only: use .vtu or .npz")
+    if mesh.within and not mesh.is_region():
+        raise Failed("LandXML has the border of a region, so --within is the name of a region here; other formats take a polygon")
     file.write(head(mesh).encode())
     file.write(f"<Surfaces><Surface name={quoteattr(plain(mesh.name))}>\n".encode())
     file.write(element("SourceData", [element("Boundaries", boundaries(mesh)), element("Breaklines", breaklines(mesh, z))]).encode())

@@ -98,6 +98,17 @@ class Within(unittest.TestCase):
         _, lost = self.export("d.obj")
         self.assertIn("regions (farm, lake)", lost)
 
+    def test_a_polygon(self):
+        polygon = "POLYGON((1.5 1.5, 6.5 2, 4 7.5, 1.5 1.5))"
+        done = run("abacus-export", "within_shire", self.at / "polygon.vtu", "--within", polygon)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        triangles = meshio.read(self.at / "polygon.vtu").cells_dict["triangle"]
+        self.assertEqual([[str(len(triangles))]], abacus.rows(f"SELECT count(*) FROM abacus_cells('within_shire', within => '{polygon}')"))
+        done = run("abacus-export", "within_shire", self.at / "polygon.xml", "--within", polygon)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("--within is the name of a region here", done.stderr)
+        self.assertFalse((self.at / "polygon.xml").exists())
+
     def test_refused(self):
         for mesh, options, said in (("within_shire", ["--within", "nope"], 'has no region "nope"'), ("within_shire", ["--within", ""], 'has no region ""')):
             done = run("abacus-export", mesh, self.at / "no.vtu", *options)
