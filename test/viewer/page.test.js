@@ -239,8 +239,10 @@ test("when the connection to the database breaks the page says by itself what is
     }, "the page goes on");
     await server.stop();
     servers.fragile = { stop: () => way.close() };
-    await page.getByRole("button", { name: "Undo" }).click();
-    await says(/server cannot be reached/);
+    await eventually(async () => { // what the page still has to do comes first
+        await page.getByRole("button", { name: "Undo" }).click();
+        return /server cannot be reached/.test(await answer());
+    }, "the page says that the server is gone", 120_000);
     refuses(/./); // connections that are refused
 });
 
