@@ -228,7 +228,7 @@ class Published(unittest.TestCase):
             abacus.psql(f"SELECT abacus_delete('reported', 'SELECT * FROM reported_points WHERE id <> ALL (ARRAY{[i + 1 for i in kept]})')")
             if int(abacus.rows("SELECT value FROM abacus_stats('reported') WHERE name = 'simplices'")[0][0]):
                 number = {old: new for new, old in enumerate(kept)}
-                triangles, edges = theirs(points[kept], numpy.vectorize(number.get)(segments))
+                triangles, edges, _ = theirs(points[kept], numpy.vectorize(number.get)(segments))
                 self.compare(points, lines, (numpy.array(kept)[triangles], numpy.sort(numpy.array(kept)[edges])))
 
     def refused(self, points, lines, expected):
@@ -263,7 +263,7 @@ class Published(unittest.TestCase):
         places = abacus.numbers("SELECT x, y FROM abacus_vertices('reported') ORDER BY id")
         ends = abacus.numbers("SELECT a.id, b.id FROM abacus_lines('reported') AS p JOIN abacus_lines('reported') AS q ON q.line = p.line AND q.position = p.position + 1"
                               " JOIN abacus_vertices('reported') AS a ON a.x = p.x AND a.y = p.y JOIN abacus_vertices('reported') AS b ON b.x = q.x AND b.y = q.y").astype(int)
-        triangles, edges = theirs(places, numpy.vectorize(vertices.get)(ends))
+        triangles, edges, _ = theirs(places, numpy.vectorize(vertices.get)(ends))
         found, fixed, _ = ours("reported")
         back = numpy.array(sorted(vertices))
         numpy.testing.assert_array_equal(fixed, sorted(map(sorted, (back[edges] - 1).tolist())))
