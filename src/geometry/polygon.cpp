@@ -306,6 +306,12 @@ bool Polygon::overlaps(const Point<2> &a, const Point<2> &b) const {
 
 void Polygon::cut(const Point<2> &a, const Point<2> &b,
                   const std::function<void(const Stretch &)> &visit) const {
+    const Box<2> around = box_around(a, b);
+    if (!around.meets(box_)) return;
+    if (!has_edge_near(around)) { // most segments: all or nothing
+        if (side(a) > 0) visit({0, 1, a, b});
+        return;
+    }
     const Place from = place_of(a), to = place_of(b);
     const auto place_at = [&](const Rational &share) {
         return share == 0 ? a : share == 1 ? b : rounded(along(from, to, share));

@@ -99,6 +99,11 @@ private:
         edge_tree_.visit(box, [&](std::size_t i) { return take(edges_[i].left, edges_[i].right); });
     }
 
+    /// Whether an edge may meet a box.
+    bool has_edge_near(const Box<2> &box) const {
+        return !edge_tree_.visit(box, [](std::size_t) { return false; });
+    }
+
     const Memory memory_;
     Arena<Edge> edges_;
     BoxTree<2> edge_tree_;
