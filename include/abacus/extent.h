@@ -18,8 +18,8 @@ typedef struct abacus_extent
 {
 	double max_edge;   /* simplices without a longer edge; 0 or infinity: any */
 	uint32_t region;   /* those in the region with this number; 0: any */
-	const abacus_area *area; /* those that have a part in it; lines, areas and values end at
-									* its border; null: any. It must live as long. */
+	const abacus_area *area; /* those that have a part in it; lines, areas and values end at its
+							  * border; null: any. It must live as long. */
 } abacus_extent;
 
 #ifdef __cplusplus

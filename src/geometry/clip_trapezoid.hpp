@@ -15,7 +15,12 @@ void clip_trapezoid(const Piece<2> &piece, const Polygon::Trapezoid &part, const
     const auto clip_edge = [&origin](const Piece<2> &whole, const Point<2> *const(&edge)[2],
                                      double sign, auto &&next) {
         const double ax = (*edge[0])[0] - origin[0], ay = (*edge[0])[1] - origin[1];
-        const double ux = (*edge[1])[0] - (*edge[0])[0], uy = (*edge[1])[1] - (*edge[0])[1];
+        // Half the edge, times a power of two: neither it nor products with it overflow.
+        const double hx = (*edge[1])[0] / 2 - (*edge[0])[0] / 2,
+                     hy = (*edge[1])[1] / 2 - (*edge[0])[1] / 2;
+        const double size = std::fmax(std::fabs(hx), std::fabs(hy));
+        const int exponent = size > 0 ? std::ilogb(size) : 0;
+        const double ux = std::scalbn(hx, -exponent), uy = std::scalbn(hy, -exponent);
         Sides<2> side;
         for (int i = 0; i < 3; ++i)
             side[i] = sign * (ux * (whole.corner[i][1] - ay) - uy * (whole.corner[i][0] - ax));

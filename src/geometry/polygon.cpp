@@ -221,24 +221,37 @@ struct Polygon::Exact {
                           });
         return right.side();
     }
-    /// Where an edge begins or ends on a segment, or crosses it, as shares of the segment.
-    std::pmr::vector<Rational> cuts(std::pmr::memory_resource &memory, const Point<2> &a,
-                                    const Point<2> &b) const {
-        std::pmr::vector<Rational> cuts(&memory);
+    /// Where the border meets a segment, as a share of it. A proper crossing, of an edge that goes
+    /// on on both sides, leads from the inside to the outside or back; at another place it may do
+    /// either.
+    struct Cut {
+        Rational share;
+        bool is_proper;
+    };
+    std::pmr::vector<Cut> cuts(std::pmr::memory_resource &memory, const Point<2> &a,
+                               const Point<2> &b) const {
+        std::pmr::vector<Cut> cuts(&memory);
         const Place from = place_of(a), to = place_of(b);
-        const auto add = [&](Rational share) {
-            if (share > 0 && share < 1) cuts.push_back(std::move(share));
+        const auto add = [&](Rational share, bool is_proper) {
+            if (share > 0 && share < 1) cuts.push_back({std::move(share), is_proper});
         };
         polygon.each_edge(box_around(a, b), [&](const Point<2> &c, const Point<2> &d) {
             const int at_c = orientation(a, b, c), at_d = orientation(a, b, d);
-            if (at_c == 0) add(share_at(from, to, place_of(c)));
-            if (at_d == 0) add(share_at(from, to, place_of(d)));
+            if (at_c == 0) add(share_at(from, to, place_of(c)), false);
+            if (at_d == 0) add(share_at(from, to, place_of(d)), false);
             if (at_c * at_d < 0 && orientation(c, d, a) * orientation(c, d, b) < 0)
-                add(share_at(from, to, place_of(c), place_of(d)));
+                add(share_at(from, to, place_of(c), place_of(d)), true);
             return true;
         });
-        std::sort(cuts.begin(), cuts.end());
-        cuts.erase(std::unique(cuts.begin(), cuts.end()), cuts.end());
+        std::sort(cuts.begin(), cuts.end(),
+                  [](const Cut &p, const Cut &q) { return p.share < q.share; });
+        std::size_t count = 0;
+        for (Cut &cut : cuts)
+            if (count > 0 && cuts[count - 1].share == cut.share)
+                cuts[count - 1].is_proper = false; // several meet there
+            else
+                std::swap(cuts[count++], cut);
+        cuts.erase(cuts.begin() + static_cast<std::ptrdiff_t>(count), cuts.end());
         return cuts;
     }
     /// Calls visit(share, share) for the stretches of a segment that are inside or on the border.
@@ -247,23 +260,25 @@ struct Polygon::Exact {
         const Box<2> around = box_around(a, b);
         if (!around.meets(polygon.box_)) return;
         HostMemory memory(polygon.memory_);
-        std::pmr::vector<Rational> cuts = this->cuts(memory, a, b);
-        if (cuts.empty()) {
-            int at = polygon.side(a);
-            if (at == 0) at = polygon.side(b);
-            if (at < 0) return;
-            if (at > 0) return visit(Rational(0), Rational(1));
-        }
-        cuts.insert(cuts.begin(), Rational(0));
-        cuts.push_back(Rational(1));
+        std::pmr::vector<Cut> cuts = this->cuts(memory, a, b);
+        cuts.push_back({Rational(1), false});
         const Place from = place_of(a), to = place_of(b);
-        std::size_t begin = 0; // of the stretch
-        for (std::size_t i = 1; i < cuts.size(); ++i) {
-            if (side(along(from, to, (cuts[i - 1] + cuts[i]) / 2), around) >= 0) continue;
-            if (begin + 1 < i) visit(cuts[begin], cuts[i - 1]);
-            begin = i;
+        const Rational zero(0);
+        const auto is_inside = [&](const Rational &begin, const Rational &end) {
+            return side(along(from, to, (begin + end) / 2), around) >= 0;
+        };
+        const int at = polygon.side(a);
+        bool inside = at != 0 ? at > 0 : is_inside(zero, cuts[0].share);
+        Rational begin = zero; // of the stretch
+        for (std::size_t i = 0; i < cuts.size(); ++i) {
+            const Rational &here = cuts[i].share;
+            const bool is_last = i + 1 == cuts.size();
+            const bool goes_on =
+                !is_last && (cuts[i].is_proper ? !inside : is_inside(here, cuts[i + 1].share));
+            if (inside && !goes_on) visit(begin, here);
+            if (!inside && goes_on) begin = here;
+            inside = goes_on;
         }
-        if (begin + 1 < cuts.size()) visit(cuts[begin], cuts.back());
     }
 };
 

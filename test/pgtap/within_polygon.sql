@@ -83,6 +83,8 @@ SELECT is(pg_temp.size('SRID=25832;POLYGON((2 2, 12 2, 12 12, 2 12, 2 2))'), 100
 SELECT is(pg_temp.size('POLYGON((2 2, 12 2, 12 12, 2 12, 2 2))'), 100::float8, 'without a system, coordinates are those of the mesh');
 SELECT is(pg_temp.size((SELECT ST_SetSRID(g, 25832)::text FROM polygon WHERE name = 'on edges')), 100::float8, 'a geometry as text');
 
+SELECT is(pg_temp.size('POLYGON((-1e308 -1e308, 1e308 -1e308, 0 1e308, -1e308 -1e308))'), 400::float8, 'corners far away');
+
 -- refused
 CREATE FUNCTION pg_temp.refused(within text, state text, message text, detail text DEFAULT NULL, hint text DEFAULT NULL) RETURNS text LANGUAGE plpgsql AS $$
 DECLARE

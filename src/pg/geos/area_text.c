@@ -10,6 +10,8 @@
 #include <ctype.h>
 #include <geos_c.h>
 
+#include "miscadmin.h"
+
 #include "pg/port/port.h"
 #include "pg/geos/area_text.h"
 #include "pg/geos/geos.h"
@@ -81,6 +83,7 @@ area_text_is(const char *text)
 pg_noreturn static void
 refuse(const char *detail, const char *hint)
 {
+	CHECK_FOR_INTERRUPTS();		/* which also stop GEOS */
 	ereport(ERROR,
 			(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
 			 errmsg("within is not a polygon that can be used"),

@@ -8,7 +8,7 @@ namespace abacus {
 
 class PathParts {
 public:
-    explicit PathParts(const Memory &memory) : part_(memory), first_(memory) {}
+    explicit PathParts(const Host &host) : host_(host), part_(host), first_(host) {}
 
     /// Calls put(part, is_closed) for each part, in order. The last point of a closed path is the
     /// first; its part across this point is one, and comes last.
@@ -29,6 +29,7 @@ public:
         };
         for (std::size_t i = 1; i < path.size(); ++i) {
             bool ends_inside = false;
+            host_.poll();
             polygon.cut(path[i - 1], path[i], [&](const Polygon::Stretch &stretch) {
                 if (stretch.from > 0) end();
                 if (part_.empty()) part_.push_back(stretch.first);
@@ -47,6 +48,7 @@ public:
     }
 
 private:
+    const Host &host_;
     Arena<Point<2>> part_, first_;
 };
 
