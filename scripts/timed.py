@@ -3,6 +3,7 @@
 
     timed.py FILE COMMAND...
 
+A command that takes more than ABACUS_MOST_SECONDS, if that is set, is ended, with the status 124.
 Servers that the command leaves to themselves count, too, as they end: this process is their
 "subreaper" (Linux, prctl(2)), so their times come to it when it waits for them. What runs on when
 the command has ended is ended. The status is the command's.
@@ -55,16 +56,29 @@ def main(report, command):
         os.execvp(command[0], command)
     for number in (signal.SIGINT, signal.SIGTERM):  # the command ends itself
         signal.signal(number, lambda *_: None)
+    late = []
+
+    def end_late(*_):  # what the command has started ends as it always does
+        late.append(pid)
+        os.kill(pid, signal.SIGKILL)
+
+    most = int(os.environ.get("ABACUS_MOST_SECONDS") or 0)
+    signal.signal(signal.SIGALRM, end_late)
+    signal.alarm(most)
     status = None
     while status is None:
         done, ended = os.wait()
         if done == pid:
             status = os.waitstatus_to_exitcode(ended)
+    signal.alarm(0)
     elapsed = time.monotonic() - began
     end_children()
     used = resource.getrusage(resource.RUSAGE_CHILDREN)
     with open(report, "a") as out:
         print(f"{elapsed:.1f} {used.ru_utime + used.ru_stime:.1f} {used.ru_stime:.1f}", file=out)
+    if late:
+        print(f"Ended by force: it took more than {most} seconds.", flush=True)
+        return 124
     return status if status >= 0 else 128 - status
 
 

@@ -220,6 +220,7 @@ test("when the connection to the database breaks the page says by itself what is
     refuses(/status of (410|503)/);
     t.mock.method(console, "error", () => {});
     const way = await fragileWay();
+    t.after(way.close); // a way that stays open would keep this process running
     const server = servers.fragile = await serve("terrain", { edit: true, dbname: way.dbname, absent: 30 }); // so it checks every five seconds
     await open("fragile");
     await addAt("4714", 400892.5, 5200741.5);
@@ -236,11 +237,11 @@ test("when the connection to the database breaks the page says by itself what is
     await eventually(async () => {
         await addAt("4714", 400892.5, 5200741.5);
         return /4714 added/.test(await says(/4714 added|be reached|another transaction/));
-    }, "the page goes on");
+    }, "the page goes on", 120_000);
     await server.stop();
-    servers.fragile = { stop: () => way.close() };
+    delete servers.fragile;
     await eventually(async () => { // what the page still has to do comes first
-        await page.getByRole("button", { name: "Undo" }).click();
+        await page.getByRole("button", { name: "Undo" }).click({ timeout: 5000 }).catch(() => {});
         return /server cannot be reached/.test(await answer());
     }, "the page says that the server is gone", 120_000);
     refuses(/./); // connections that are refused

@@ -10,9 +10,16 @@ import { start } from "../../viewer/server.js";
 export const packages = createRequire(new URL("../../viewer/package.json", import.meta.url));
 const pg = packages("pg");
 
-/** What psql says, without headings. */
+// A file of tests that hangs fails: something keeps it running, and nothing comes of it any more.
+const mostOfFile = 900_000;
+setTimeout(() => {
+    console.error(`not ended within ${mostOfFile / 1000} seconds: ${process.getActiveResourcesInfo().join(", ")}`);
+    process.exit(1);
+}, mostOfFile).unref();
+
+/** What psql says, without headings. It stops this process while it runs, so it must end, whatever else holds a lock. */
 export const psql = (text) =>
-    execFileSync("psql", ["-X", "-q", "-A", "-t", "-v", "ON_ERROR_STOP=1", "-c", text], { encoding: "utf8", stdio: ["ignore", "pipe", "pipe"] }).trim();
+    execFileSync("psql", ["-X", "-q", "-A", "-t", "-v", "ON_ERROR_STOP=1", "-c", text], { encoding: "utf8", stdio: ["ignore", "pipe", "pipe"], timeout: 120_000 }).trim();
 
 export function makeMeshes() {
     psql("SET client_min_messages = warning; DROP TABLE IF EXISTS terrain, globe, rock, shire CASCADE");
@@ -34,7 +41,7 @@ export async function serve(mesh, options = {}) {
     const { port, stop } = await start({ mesh, srid: 0, edit: false, timeout: 20, port: 0, host: "127.0.0.1", ...options });
     const origin = `http://127.0.0.1:${port}`;
     const get = async (path, more) => {
-        const response = await fetch(origin + path, more);
+        const response = await fetch(origin + path, { signal: AbortSignal.timeout(120_000), ...more });
         return { status: response.status, body: await response.json() };
     };
     const post = (name, body, session) => get(`/edit/${name}`, { method: "POST", body: JSON.stringify(body ?? {}),
@@ -82,11 +89,11 @@ export async function drop(mesh) {
     await client.end();
 }
 
-/** Waits for a condition; long enough for a machine that has much else to do. */
+const pause = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
+
+/** Waits for a condition; long enough for a machine that has much else to do. A condition that never answers does not hold. */
 export async function eventually(condition, what, most = 30_000) {
-    for (const until = Date.now() + most; Date.now() < until;) {
-        if (await condition()) return;
-        await new Promise((resolve) => setTimeout(resolve, 50));
-    }
+    for (const until = Date.now() + most; Date.now() < until; await pause(50))
+        if (await Promise.race([condition(), pause(until - Date.now())])) return;
     throw new Error(`not within ${most / 1000} seconds: ${what}`);
 }
