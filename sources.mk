@@ -104,6 +104,7 @@ CORE.delaunay += src/delaunay/pieces.cpp
 CORE.delaunay += src/delaunay/refill.cpp
 CORE.delaunay += src/delaunay/removal.cpp
 CORE.delaunay += src/delaunay/star.cpp
+CORE.delaunay += src/traverse/faces.cpp
 
 CORE.change += src/constrain/edge_heirs.cpp
 CORE.change += src/constrain/fixing.cpp
@@ -112,6 +113,7 @@ CORE.change += src/constrain/restoring.cpp
 CORE.change += src/constrain/outline_sides.cpp
 CORE.change += src/constrain/region_flood.cpp
 CORE.change += src/constrain/regions.cpp
+CORE.change += src/constrain/region_cuts.cpp
 CORE.change += src/change/build.cpp
 CORE.change += src/change/constraining.cpp
 CORE.change += src/change/crowding.cpp
@@ -172,6 +174,7 @@ CORE.query_shapes += src/query/shapes/voronoi.cpp
 
 CORE.query_whole += src/query/check/page_check.cpp
 CORE.query_whole += src/query/check/topology_check.cpp
+CORE.query_whole += src/query/check/region_check.cpp
 CORE.query_whole += src/query/check/check_threads.cpp
 CORE.query_whole += src/query/check/check.cpp
 CORE.query_whole += src/query/volume/overlaps.cpp

@@ -77,10 +77,14 @@ ABACUS_API abacus_status abacus_build_fix(abacus_build *build, abacus_segments *
 										  abacus_header *header, abacus_error *error);
 /*
  * unfix: frees the edges of each segment, but for those that are on a segment of a line that the
- * host still has, which get its kind; so their lines must be gone there.
+ * host still has, which get its kind; so their lines must be gone there. ABACUS_END, and *fault says
+ * which, if a region ends at an edge that would be free: then the change must be given up.
  */
+struct abacus_region_fault; /* regions.h */
 ABACUS_API abacus_status abacus_build_unfix(abacus_build *build, abacus_segments *segments,
-											abacus_header *header, abacus_error *error);
+											abacus_header *header,
+											struct abacus_region_fault *fault,
+											abacus_error *error);
 /*
  * restore: flips edges that fail the in-circle test under the symbolic perturbation, and those beside
  * them, until only fixed edges fail it. `edges` are those that may fail; if the mesh lacks one, it is

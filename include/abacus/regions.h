@@ -45,7 +45,8 @@ typedef enum abacus_region_fault_kind
 	ABACUS_REGION_SEED_OUTSIDE, /* the seed is outside the hull */
 	ABACUS_REGION_SEED_FIXED,   /* the seed is on a fixed edge */
 	ABACUS_REGION_LEAK,         /* the flood reaches the hull at the place */
-	ABACUS_REGION_TWICE         /* a triangle, with a corner at the place, is in another one as well */
+	ABACUS_REGION_TWICE,        /* a triangle, with a corner at the place, is in another one as well */
+	ABACUS_REGION_BORDER        /* the region ends at a segment that is to go */
 } abacus_region_fault_kind;
 
 typedef struct abacus_region_fault
@@ -54,6 +55,7 @@ typedef struct abacus_region_fault
 	uint32_t region;
 	uint32_t other;  /* the region that has the triangle, or 0 */
 	double place[2];
+	double end[2];   /* ... where the segment that begins at the place ends */
 } abacus_region_fault;
 
 /*
@@ -69,6 +71,14 @@ ABACUS_API abacus_status abacus_build_fill_regions(abacus_build *build, abacus_r
 ABACUS_API abacus_status abacus_build_clear_regions(abacus_build *build,
 													abacus_region_parts *parts,
 													abacus_header *header, abacus_error *error);
+
+/*
+ * Segments have been fixed: makes the regions with these parts, all of which have seeds, what they are
+ * with them. ABACUS_END as abacus_build_fill_regions(). No more parts can be added.
+ */
+ABACUS_API abacus_status abacus_build_cut_regions(abacus_build *build, abacus_segments *segments,
+												  abacus_region_parts *parts, abacus_header *header,
+												  abacus_region_fault *fault, abacus_error *error);
 
 /* Gets the number of a region that lies beside segments; regions may come repeatedly. */
 typedef abacus_host_status (*abacus_region_report)(void *context, uint32_t region);
@@ -94,6 +104,13 @@ typedef abacus_host_status (*abacus_region_size_report)(void *context,
 ABACUS_API abacus_status abacus_region_sizes(abacus_mesh *mesh, size_t memory,
 											 abacus_region_size_report report, void *context,
 											 abacus_error *error);
+
+/*
+ * Compares the triangles of all regions of a sound mesh with what their parts give them, within `memory`
+ * bytes: *region gets the number of one whose triangles are others, or 0. No more parts can be added.
+ */
+ABACUS_API abacus_status abacus_region_check(abacus_mesh *mesh, abacus_region_parts *parts,
+											 size_t memory, uint32_t *region, abacus_error *error);
 
 #ifdef __cplusplus
 }

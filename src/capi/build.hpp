@@ -81,4 +81,16 @@ abacus_status run_change(abacus_build *build, abacus_header *header, abacus_erro
     });
 }
 
+/// The same for a change that returns whether regions can be as they must; ABACUS_END if not.
+template <class Change>
+abacus_status run_sound_change(abacus_build *build, abacus_header *header, abacus_error *error,
+                               Change change) noexcept {
+    bool is_sound = true;
+    const abacus_status status =
+        run_change(build, header, error, [&](auto &opened, abacus_header &changed) {
+            is_sound = change(opened, changed);
+        });
+    return status == ABACUS_OK && !is_sound ? ABACUS_END : status;
+}
+
 } // namespace abacus

@@ -54,10 +54,12 @@ abacus_status abacus_build_fix(abacus_build *build, abacus_segments *segments,
 }
 
 abacus_status abacus_build_unfix(abacus_build *build, abacus_segments *segments,
-                                 abacus_header *header, abacus_error *error) {
-    return abacus::run_change(build, header, error, [&](auto &opened, abacus_header &changed) {
-        opened.unfix(segments->segments, changed);
-    });
+                                 abacus_header *header, abacus_region_fault *fault,
+                                 abacus_error *error) {
+    return abacus::run_sound_change(build, header, error,
+                                    [&](auto &opened, abacus_header &changed) {
+                                        return opened.unfix(segments->segments, *fault, changed);
+                                    });
 }
 
 abacus_status abacus_build_restore(abacus_build *build, abacus_segments *edges,

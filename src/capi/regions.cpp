@@ -5,6 +5,7 @@
 #include "capi/in_plane.hpp"
 #include "capi/mesh.hpp"
 #include "capi/segments.hpp"
+#include "query/check/region_check.hpp"
 #include "query/scan/region_sizes.hpp"
 
 #include <abacus/regions.h>
@@ -52,12 +53,19 @@ void abacus_region_parts_close(abacus_region_parts *parts) { abacus::destroy_han
 abacus_status abacus_build_fill_regions(abacus_build *build, abacus_region_parts *parts,
                                         abacus_header *header, abacus_region_fault *fault,
                                         abacus_error *error) {
-    bool is_sound = true;
-    const abacus_status status =
-        abacus::run_change(build, header, error, [&](auto &opened, abacus_header &changed) {
-            is_sound = opened.fill_regions(parts->parts, *fault, changed);
+    return abacus::run_sound_change(build, header, error,
+                                    [&](auto &opened, abacus_header &changed) {
+                                        return opened.fill_regions(parts->parts, *fault, changed);
+                                    });
+}
+
+abacus_status abacus_build_cut_regions(abacus_build *build, abacus_segments *segments,
+                                       abacus_region_parts *parts, abacus_header *header,
+                                       abacus_region_fault *fault, abacus_error *error) {
+    return abacus::run_sound_change(
+        build, header, error, [&](auto &opened, abacus_header &changed) {
+            return opened.cut_regions(segments->segments, parts->parts, *fault, changed);
         });
-    return status == ABACUS_OK && !is_sound ? ABACUS_END : status;
 }
 
 abacus_status abacus_build_clear_regions(abacus_build *build, abacus_region_parts *parts,
@@ -86,6 +94,16 @@ abacus_status abacus_region_sizes(abacus_mesh *mesh, size_t memory,
         region_sizes(reader, memory, [&](const abacus_region_size &size) {
             host::require(report(context, &size));
         });
+        return ABACUS_OK;
+    });
+}
+
+abacus_status abacus_region_check(abacus_mesh *mesh, abacus_region_parts *parts, size_t memory,
+                                  uint32_t *region, abacus_error *error) {
+    using namespace abacus;
+    return in_plane(mesh->reader, "regions", error, [&](Reader<2> &reader) {
+        *region = RegionCheck(reader, memory).find_wrong(parts->parts);
+        parts->parts.close();
         return ABACUS_OK;
     });
 }

@@ -42,6 +42,17 @@ void Build<D>::change(abacus_header &header, Change change) {
     header.counters += work_.counters();
 }
 
+template <int D>
+template <class Change>
+bool Build<D>::sound_change(abacus_header &header, Change change_it) {
+    bool is_sound = true;
+    change(header, [&] {
+        is_sound = change_it();
+        return std::uint64_t{0};
+    });
+    return is_sound;
+}
+
 template <int D> void Build<D>::settle(abacus_header &header) {
     labels_.settle();
     change(header, [] { return std::uint64_t{0}; });
@@ -160,10 +171,11 @@ template <int D> void Build<D>::fix(Segments &segments, abacus_header &header) {
     });
 }
 
-template <int D> void Build<D>::unfix(Segments &segments, abacus_header &header) {
-    change(header, [&] {
+template <int D>
+bool Build<D>::unfix(Segments &segments, abacus_region_fault &fault, abacus_header &header) {
+    return sound_change(header, [&] {
         inserting_.insert_waiting(0);
-        return constraining_.unfix(segments);
+        return constraining_.unfix(segments, fault);
     });
 }
 
@@ -173,12 +185,7 @@ template <int D> void Build<D>::restore(Segments &edges, abacus_header &header) 
 
 template <int D>
 bool Build<D>::fill_regions(RegionParts &parts, abacus_region_fault &fault, abacus_header &header) {
-    bool is_sound = true;
-    change(header, [&] {
-        is_sound = constraining_.fill_regions(parts, fault);
-        return std::uint64_t{0};
-    });
-    return is_sound;
+    return sound_change(header, [&] { return constraining_.fill_regions(parts, fault); });
 }
 
 template <int D> void Build<D>::clear_regions(RegionParts &parts, abacus_header &header) {
@@ -186,6 +193,12 @@ template <int D> void Build<D>::clear_regions(RegionParts &parts, abacus_header 
         constraining_.clear_regions(parts);
         return std::uint64_t{0};
     });
+}
+
+template <int D>
+bool Build<D>::cut_regions(Segments &segments, RegionParts &parts, abacus_region_fault &fault,
+                           abacus_header &header) {
+    return sound_change(header, [&] { return constraining_.cut_regions(segments, parts, fault); });
 }
 
 template <int D> bool Build<D>::rekey(std::size_t memory, abacus_header &header) {

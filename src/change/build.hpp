@@ -68,14 +68,18 @@ public:
                            abacus_header &header);
     /// Inserts what waits, then fixes the edges of segments. From then on the mesh is constrained.
     void fix(Segments &segments, abacus_header &header);
-    /// Inserts what waits, then frees the edges of segments over which the host has no line.
-    void unfix(Segments &segments, abacus_header &header);
+    /// Inserts what waits, then frees the edges of segments over which the host has no line, or
+    /// says why that is impossible.
+    bool unfix(Segments &segments, abacus_region_fault &fault, abacus_header &header);
     /// Makes a mesh Delaunay, but for its fixed edges, of which only these edges may fail the test.
     void restore(Segments &edges, abacus_header &header);
     /// Puts triangles into the regions that have these parts, or says why that is impossible.
     bool fill_regions(RegionParts &parts, abacus_region_fault &fault, abacus_header &header);
     /// Takes all triangles out of these regions.
     void clear_regions(RegionParts &parts, abacus_header &header);
+    /// Makes regions of seeds what they are with new fixed edges, or says why that is impossible.
+    bool cut_regions(Segments &segments, RegionParts &parts, abacus_region_fault &fault,
+                     abacus_header &header);
     /// Calls visit(region) for the regions on either side of segments, which are fixed.
     void regions_along(Segments &segments, const std::function<void(RegionNumber)> &visit) {
         constraining_.regions_along(segments, visit);
@@ -93,6 +97,8 @@ private:
     void check_attributes(const Stage<D> &stage, std::size_t attributes) const;
     /// Runs a change, which returns how many points it has processed, and ends it.
     template <class Change> void change(abacus_header &header, Change change);
+    /// The same for a change that returns whether it could be made.
+    template <class Change> bool sound_change(abacus_header &header, Change change_it);
 
     Workspace<D> work_;
     LabelUpkeep<D> labels_;

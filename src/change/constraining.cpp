@@ -2,7 +2,7 @@
 
 #include "constrain/fixing.hpp"
 #include "constrain/freeing.hpp"
-#include "constrain/regions.hpp"
+#include "constrain/region_cuts.hpp"
 #include "constrain/restoring.hpp"
 
 namespace abacus {
@@ -58,14 +58,21 @@ template <int D> std::uint64_t Constraining<D>::fix(Segments &segments) {
     }
 }
 
-template <int D> std::uint64_t Constraining<D>::unfix(Segments &segments) {
+template <int D> bool Constraining<D>::unfix(Segments &segments, abacus_region_fault &fault) {
     if constexpr (D == 2) {
-        if (!work_.has_simplices()) return 0;
+        if (!work_.has_simplices()) return true;
         if (work_.lines == nullptr)
             throw Error(ABACUS_ERROR_STATE, "edges cannot be freed without the lines of the mesh");
         work_.core->mesh.is_constrained = true;
         Freeing freeing(work_.core->mesh, *work_.lines);
-        return each(segments, [&](const Segment &s) { freeing.free(s.a, s.b); });
+        bool is_sound = true;
+        each(segments, [&](const Segment &s) {
+            if (!is_sound) return;
+            const RegionNumber ending = freeing.free(s.a, s.b);
+            is_sound = ending == no_region;
+            fault = {ABACUS_REGION_BORDER, ending, no_region, {s.a[0], s.a[1]}, {s.b[0], s.b[1]}};
+        });
+        return is_sound;
     } else {
         throw Error(ABACUS_ERROR_ARGUMENT, "lines need a mesh of dimension 2");
     }
@@ -80,15 +87,12 @@ template <int D> std::uint64_t Constraining<D>::restore(Segments &edges) {
     }
 }
 
-template <int D>
-template <class Change>
-void Constraining<D>::with_regions(std::size_t memory, Change change) {
+template <int D> template <class Change> void Constraining<D>::with_regions(Change change) {
     if constexpr (D == 2) {
         if (!work_.has_simplices())
             throw Error(ABACUS_ERROR_STATE, "the points of the mesh span no triangle");
         work_.core->mesh.is_constrained = true;
-        Regions regions(work_.core->mesh, memory);
-        change(regions);
+        change(work_.core->mesh);
     } else {
         throw Error(ABACUS_ERROR_ARGUMENT, "regions need a mesh of dimension 2");
     }
@@ -97,20 +101,34 @@ void Constraining<D>::with_regions(std::size_t memory, Change change) {
 template <int D>
 bool Constraining<D>::fill_regions(RegionParts &parts, abacus_region_fault &fault) {
     bool is_sound = true;
-    with_regions(parts.memory(), [&](auto &regions) { is_sound = regions.fill(parts, fault); });
+    with_regions([&](auto &mesh) { is_sound = Regions(mesh, parts.memory()).fill(parts, fault); });
     if (is_sound) parts.close();
     return is_sound;
 }
 
 template <int D> void Constraining<D>::clear_regions(RegionParts &parts) {
-    with_regions(parts.memory(), [&](auto &regions) { regions.clear(parts); });
+    with_regions([&](auto &mesh) { Regions(mesh, parts.memory()).clear(parts); });
     parts.close();
+}
+
+template <int D>
+bool Constraining<D>::cut_regions(Segments &segments, RegionParts &parts,
+                                  abacus_region_fault &fault) {
+    bool is_sound = true;
+    with_regions([&](auto &mesh) {
+        RegionCuts cuts(mesh, parts.memory());
+        segments.each([&](const Segment &s) { cuts.add(s.a, s.b); });
+        is_sound = cuts.finish(parts, fault);
+    });
+    if (is_sound) parts.close();
+    return is_sound;
 }
 
 template <int D>
 void Constraining<D>::regions_along(Segments &segments,
                                     const std::function<void(RegionNumber)> &visit) {
-    with_regions(RecordSort::least, [&](auto &regions) {
+    with_regions([&](auto &mesh) {
+        Regions regions(mesh, RecordSort::least);
         segments.each([&](const Segment &s) { regions.along(s.a, s.b, visit); });
     });
 }

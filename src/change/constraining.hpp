@@ -24,8 +24,9 @@ public:
     /// Fixes the edges of all segments, of a mesh with simplices; returns how many segments there
     /// were.
     std::uint64_t fix(Segments &segments);
-    /// Frees the edges of all segments over which the host has no line.
-    std::uint64_t unfix(Segments &segments);
+    /// Frees the edges of all segments over which the host has no line; false, and `fault` says why,
+    /// if that is impossible.
+    bool unfix(Segments &segments, abacus_region_fault &fault);
     /// Makes the mesh Delaunay again, but for its fixed edges, from edges that may fail the test.
     std::uint64_t restore(Segments &edges);
     /// Puts triangles into the regions that have these parts; false, and `fault` says why, if that
@@ -33,6 +34,9 @@ public:
     bool fill_regions(RegionParts &parts, abacus_region_fault &fault);
     /// Takes all triangles out of these regions.
     void clear_regions(RegionParts &parts);
+    /// Makes regions of seeds, with these parts, what they are with segments whose edges have been
+    /// fixed; false, and `fault` says why, if that is impossible.
+    bool cut_regions(Segments &segments, RegionParts &parts, abacus_region_fault &fault);
     /// Calls visit(region) for the regions on either side of segments, which are fixed.
     void regions_along(Segments &segments, const std::function<void(RegionNumber)> &visit);
     /// Whether the mesh has a vertex at p, and its record unless that is null.
@@ -50,8 +54,8 @@ private:
     bool counts_crowded() const override { return false; }
 
     template <class Change> std::uint64_t each(Segments &segments, Change change);
-    /// Calls change(regions) with the regions of a mesh in the plane.
-    template <class Change> void with_regions(std::size_t memory, Change change);
+    /// Calls change(mesh) with a mesh in the plane, which may have regions.
+    template <class Change> void with_regions(Change change);
 
     Workspace<D> &work_;
     Gathering<D> &gathering_;

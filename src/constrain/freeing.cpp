@@ -1,33 +1,20 @@
 #include "constrain/freeing.hpp"
 
-#include "geometry/in_words.hpp"
-
 #include <algorithm>
-#include <string>
 
 namespace abacus {
-
-namespace {
-
-[[noreturn]] void throw_region_ends(RegionNumber region, const Point<2> &a, const Point<2> &b) {
-    throw Error(ABACUS_ERROR_STATE, "a line is the border of a region",
-                "The region with the number " + std::to_string(region) + " ends at the edge from " +
-                    in_words(a) + " to " + in_words(b) + ".",
-                "Find its name with abacus_regions(). Remove the region first, with "
-                "abacus_unregion().");
-}
-
-} // namespace
 
 Freeing::Freeing(Delaunay<2> &mesh, LineSource &lines)
     : mesh_(mesh), cache_(mesh.cache()), over_(mesh, lines), restoring_(mesh) {}
 
-void Freeing::free(const Point<2> &a, const Point<2> &b) {
-    for (Point<2> at = a; at != b;) {
+RegionNumber Freeing::free(const Point<2> &a, const Point<2> &b) {
+    ending_ = no_region;
+    for (Point<2> at = a; at != b && ending_ == no_region;) {
         cache_.poll();
         at = free_edge(at, b);
         mesh_.finish(mesh_.anywhere);
     }
+    return ending_;
 }
 
 Point<2> Freeing::free_edge(const Point<2> &from, const Point<2> &b) {
@@ -49,8 +36,10 @@ Point<2> Freeing::free_edge(const Point<2> &from, const Point<2> &b) {
     const Link outer = cache_.cross(link_simplex(inner), link_facet(inner));
     const RegionNumber here = cache_.region(link_simplex(inner)),
                        there = cache_.region(link_simplex(outer));
-    if (left == Fixed::no && here != there)
-        throw_region_ends(here == no_region ? there : std::max(here, there), from, end);
+    if (left == Fixed::no && here != there) {
+        ending_ = std::max(here, there);
+        return end;
+    }
     for (const Link side : {inner, outer}) {
         cache_.set_fixed(side, left);
         cache_.mark_dirty(link_simplex(side));

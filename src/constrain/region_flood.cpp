@@ -31,7 +31,7 @@ void RegionFlood::begin(Rule rule, RegionNumber region, TouchingEdges *touching)
 }
 
 void RegionFlood::set(Handle h) {
-    cache_.set_region(h, rule_ == Rule::clear ? no_region : region_);
+    cache_.set_region(h, clears() ? no_region : region_);
     cache_.mark_dirty(h);
 }
 
@@ -47,13 +47,13 @@ bool RegionFlood::look_around(Handle h, abacus_region_fault &fault) {
         return false;
     };
     for (int i = 0; i < 3; ++i) {
-        if (rule_ == Rule::seed && cache_.is_fixed(make_link(h, i))) continue;
+        if (ends_at_fixed() && cache_.is_fixed(make_link(h, i))) continue;
         const Handle beyond = link_simplex(cache_.cross(h, i));
         const VertexIndex v = cache_.simplex(h).vertex[(i + 1) % 3];
         const RegionNumber there = cache_.region(beyond);
         if (cache_.simplex(beyond).is_ghost()) {
             if (rule_ == Rule::seed) return fail(ABACUS_REGION_LEAK, no_region, v);
-        } else if (rule_ == Rule::clear) {
+        } else if (clears()) {
             if (there == region_) take(beyond);
         } else if (there == no_region) {
             take(beyond);

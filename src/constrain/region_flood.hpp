@@ -21,7 +21,8 @@ public:
     enum class Rule {
         outline, // to triangles that are in another region, or marked as outside
         seed,    // to fixed edges
-        clear    // to triangles that are not in the region
+        face,    // to fixed edges, and takes triangles out of the region
+        clear    // to triangles that are not in the region; takes them out of it
     };
 
     explicit RegionFlood(Delaunay<2> &mesh);
@@ -51,6 +52,8 @@ private:
     static constexpr std::size_t edge_words = 4, triangles_at_once = 8192,
                                  most_pending = std::size_t{1} << 15;
 
+    bool clears() const { return rule_ == Rule::face || rule_ == Rule::clear; }
+    bool ends_at_fixed() const { return rule_ == Rule::face || rule_ == Rule::seed; }
     void set(Handle h);
     bool look_around(Handle h, abacus_region_fault &fault);
     bool next(Handle &h);

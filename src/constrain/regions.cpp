@@ -22,7 +22,7 @@ bool Regions::fill_outlines(RegionParts &parts, abacus_region_fault &fault) {
     OutlineSides sides(cache_.host(), memory_);
     parts.each(
         [&](RegionNumber region, const Point<2> &a, const Point<2> &b) {
-            each_edge(a, b, [&](Link edge) {
+            each_edge_on(mesh_, a, b, [&](Link edge) {
                 const auto &vertex = cache_.simplex(link_simplex(edge)).vertex;
                 sides.add(region, cache_.point(vertex[(link_facet(edge) + 1) % 3]),
                           cache_.point(vertex[(link_facet(edge) + 2) % 3]));
@@ -78,7 +78,7 @@ bool Regions::flood_outline(RegionNumber region, abacus_region_fault &fault) {
 bool Regions::fill_beside(RegionNumber region, const Point<2> &from, const Point<2> &to,
                           abacus_region_fault &fault) {
     const Link edge = RegionFlood::left_of(mesh_, from, to);
-    const Handle inner = link_simplex(edge), outer = beyond(edge);
+    const Handle inner = link_simplex(edge), outer = right_of(cache_, edge);
     const RegionNumber here = cache_.region(inner), there = cache_.region(outer);
     if (here != no_region && here != region) {
         fault = {ABACUS_REGION_TWICE, region, here, {from[0], from[1]}};
@@ -98,8 +98,9 @@ bool Regions::fill_beside(RegionNumber region, const Point<2> &from, const Point
 void Regions::unmark_outside() {
     edges_->rewind();
     while (const std::uint64_t *const record = edges_->next()) {
-        const Handle outer = beyond(RegionFlood::left_of(mesh_, point_from_ordered<2>(record),
-                                                         point_from_ordered<2>(record + 2)));
+        const Handle outer =
+            right_of(cache_, RegionFlood::left_of(mesh_, point_from_ordered<2>(record),
+                                                  point_from_ordered<2>(record + 2)));
         if (cache_.region(outer) == RegionFlood::outside) {
             cache_.set_region(outer, no_region);
             cache_.mark_dirty(outer);
@@ -127,7 +128,7 @@ bool Regions::is_on_fixed(Handle h, const Point<2> &p) {
     return is;
 }
 
-bool Regions::fill_seed(RegionNumber region, const Point<2> &p, abacus_region_fault &fault) {
+Handle Regions::at_seed(RegionNumber region, const Point<2> &p, abacus_region_fault &fault) {
     fault = {ABACUS_REGION_SEED_OUTSIDE, region, no_region, {p[0], p[1]}};
     Handle h = mesh_.locate(p, cache_.domain().code(p), mesh_.any_recent());
     if (const int at = mesh_.corner_at(h, p); at >= 0)
@@ -135,9 +136,14 @@ bool Regions::fill_seed(RegionNumber region, const Point<2> &p, abacus_region_fa
             h = around;
             return cache_.simplex(h).is_ghost();
         });
-    if (cache_.simplex(h).is_ghost()) return false;
+    if (cache_.simplex(h).is_ghost()) return no_handle;
     fault.kind = ABACUS_REGION_SEED_FIXED;
-    if (is_on_fixed(h, p)) return false;
+    return is_on_fixed(h, p) ? no_handle : h;
+}
+
+bool Regions::fill_seed(RegionNumber region, const Point<2> &p, abacus_region_fault &fault) {
+    const Handle h = at_seed(region, p, fault);
+    if (h == no_handle) return false;
     const RegionNumber here = cache_.region(h);
     fault.kind = ABACUS_REGION_TWICE;
     fault.other = here;
@@ -157,7 +163,7 @@ void Regions::clear(RegionParts &parts) {
     };
     parts.each(
         [&](RegionNumber region, const Point<2> &a, const Point<2> &b) {
-            each_edge(a, b, [&](Link edge) {
+            each_edge_on(mesh_, a, b, [&](Link edge) {
                 const auto &vertex = cache_.simplex(link_simplex(edge)).vertex;
                 const Point<2> from = cache_.point(vertex[(link_facet(edge) + 1) % 3]),
                                to = cache_.point(vertex[(link_facet(edge) + 2) % 3]);

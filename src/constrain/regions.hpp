@@ -6,10 +6,10 @@
 // (touching_edges.hpp).
 #pragma once
 
+#include "constrain/edges_on.hpp"
 #include "constrain/outline_sides.hpp"
 #include "constrain/region_flood.hpp"
 #include "constrain/region_parts.hpp"
-#include "traverse/straight.hpp"
 
 namespace abacus {
 
@@ -23,30 +23,17 @@ public:
     void clear(RegionParts &parts);
     /// Calls visit(region) for the regions on either side of each edge on the segment.
     template <class Visit> void along(const Point<2> &a, const Point<2> &b, Visit visit) {
-        each_edge(a, b, [&](Link edge) {
-            for (const Handle h : {link_simplex(edge), beyond(edge)})
+        each_edge_on(mesh_, a, b, [&](Link edge) {
+            for (const Handle h : {link_simplex(edge), right_of(cache_, edge)})
                 if (const RegionNumber region = cache_.region(h); region != no_region)
                     visit(region);
         });
     }
+    /// A triangle of the face in which a seed of a region lies; no_handle, and `fault` says why, if
+    /// there is none.
+    Handle at_seed(RegionNumber region, const Point<2> &p, abacus_region_fault &fault);
 
 private:
-    /// Calls visit(edge, from, to) for the edges of the mesh on a segment.
-    template <class Visit> void each_edge(const Point<2> &a, const Point<2> &b, Visit visit) {
-        for (Point<2> at = a; at != b;) {
-            cache_.poll();
-            const Link corner = vertex_at(mesh_, at);
-            const Way way = corner == unset ? Way{} : straight_on(cache_, corner, b);
-            if (!way.is_edge) throw_corrupted("A segment of a line is not an edge of the mesh.");
-            at = cache_.point(cache_.simplex(way.triangle).vertex[(way.corner + 1) % 3]);
-            visit(make_link(way.triangle, (way.corner + 2) % 3));
-            mesh_.finish(mesh_.anywhere);
-        }
-    }
-    Handle beyond(Link edge) {
-        return link_simplex(cache_.cross(link_simplex(edge), link_facet(edge)));
-    }
-
     bool fill_outlines(RegionParts &parts, abacus_region_fault &fault);
     /// Begins with the triangles along an edge that has the inside on its left.
     bool fill_beside(RegionNumber region, const Point<2> &from, const Point<2> &to,

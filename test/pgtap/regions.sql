@@ -162,7 +162,7 @@ SELECT is((SELECT count(*) FROM abacus_regions('field')), 3::bigint, 'a region g
 SELECT pg_temp.refused($$SELECT abacus_unregion('field', 'pond')$$, '42704', 'mesh "field" has no region "pond"');
 SELECT abacus_region('field', $$VALUES ('half', 2.5, 2.5)$$);
 SELECT is((SELECT triangles FROM abacus_regions('field') WHERE region = 'half'), 8::bigint, 'a seed fills its side of the lines');
-SELECT throws_ok($$SELECT abacus_unconstrain('field', 'SELECT 20')$$, '55000', 'a line is the border of a region');
+SELECT throws_ok($$SELECT abacus_unconstrain('field', 'SELECT 20')$$, '55000', 'region "half" ends at line 20');
 SELECT abacus_unregion('field', 'half');
 SELECT is(abacus_unconstrain('field', 'VALUES (20), (21)'), 2::bigint, 'without the region they may go');
 SELECT abacus_region('field', $$VALUES ('pond', 2.5, 2.5)$$);
@@ -185,6 +185,28 @@ SELECT is((SELECT concat_ws(' ', triangles, area) FROM abacus_regions('field') W
 UPDATE field_regions SET number = number + 70 WHERE region = 'hut';
 SELECT is((SELECT string_agg(fault || ': ' || message, ' ') FROM abacus_check('field')), 'regions: Triangles have the number of a region that does not exist.', 'a number that does not fit');
 UPDATE field_regions SET number = number - 70 WHERE region = 'hut';
+
+-- ... of whole faces, with numbers and counts that fit
+CREATE FUNCTION pg_temp.finds(damage text, region text, why text) RETURNS text LANGUAGE plpgsql AS $$
+DECLARE
+	found text;
+BEGIN
+	BEGIN
+		EXECUTE damage;
+		SELECT string_agg(fault || ': ' || message, ' ') INTO found FROM abacus_check('field');
+		RAISE EXCEPTION USING ERRCODE = 'ZZ999';
+	EXCEPTION WHEN SQLSTATE 'ZZ999' THEN NULL;
+	END;
+	RETURN is(found, format('regions: Region "%s" does not have the triangles that its outlines or seeds give it.', region), why);
+END $$;
+SELECT pg_temp.finds($$UPDATE field_regions SET number = (SELECT min(number) FROM field_regions WHERE region = CASE f.region WHEN 'hut' THEN 'wood' ELSE 'hut' END)
+    FROM field_regions AS f WHERE f.region IN ('hut', 'wood') AND (f.region, f.part) = (field_regions.region, field_regions.part)$$, 'hut', 'numbers exchanged');
+SELECT pg_temp.finds($$DELETE FROM field_regions WHERE region = 'fields' AND line = 3$$, 'fields', 'an outline lost');
+SELECT pg_temp.finds($$UPDATE field_regions SET line = 4 WHERE region = 'hut'$$, 'hut', 'another outline');
+SELECT pg_temp.finds($$UPDATE field_regions SET line = 7 WHERE region = 'hut'$$, 'hut', 'one that is not closed');
+SELECT pg_temp.finds($$UPDATE field_regions SET y = 4.5 WHERE region = 'pond'$$, 'pond', 'a seed elsewhere');
+SELECT pg_temp.finds($$UPDATE field_regions SET y = 100 WHERE region = 'pond'$$, 'pond', 'a seed beyond the hull');
+SELECT pg_temp.finds($$INSERT INTO field_regions SELECT region, number, part + 1, line, x, 4.5 FROM field_regions WHERE region = 'pond'$$, 'pond', 'one more seed');
 DELETE FROM field_regions WHERE region = 'wood';
 SELECT is((SELECT string_agg(fault || ': ' || message, ' ') FROM abacus_check('field')), 'regions: The header counts more or fewer regions than there are.', 'a region that is lost');
 

@@ -195,6 +195,15 @@ for my $code (split /\n/, $node->safe_psql('postgres', 'SELECT p.code FROM plot 
 		qr/^interval\||^regions\|A region (ends at an edge that is not fixed|has no triangles)/, "a page without the region, $code");
 }
 is_found('plot', 'DELETE FROM plot WHERE code >= 0; INSERT INTO plot SELECT * FROM bare WHERE code >= 0', qr/^regions\|A region has no triangles/, 'all pages');
+
+# ... or of a mesh whose region with that number is another set of whole faces
+for my $parts ("VALUES ('ring', -1)", "VALUES ('ring', 0.25, 0.7)")
+{
+	$node->safe_psql('postgres', "SELECT abacus_region('bare', \$\$$parts\$\$)");
+	is_found('plot', 'DELETE FROM plot WHERE code >= 0; INSERT INTO plot SELECT * FROM bare WHERE code >= 0',
+		qr/^regions\|Region "ring" does not have the triangles that its outlines or seeds give it/, "all pages of $parts");
+	$node->safe_psql('postgres', "SELECT abacus_unregion('bare', 'ring')");
+}
 is_found('plot', 'DELETE FROM plot_regions', qr/^regions\|The header counts more or fewer regions/, 'all regions are lost');
 is_found('plot', 'UPDATE plot_regions SET number = 5', qr/^regions\|Triangles have the number of a region that does not exist/, 'another number');
 

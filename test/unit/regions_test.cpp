@@ -3,7 +3,7 @@
 // them. Of seeds, by flooding all triangles in memory.
 #include "constrain/fixing.hpp"
 #include "constrain/freeing.hpp"
-#include "constrain/regions.hpp"
+#include "constrain/region_cuts.hpp"
 #include "support/mesh_in_change.hpp"
 #include "support/point_sets.hpp"
 #include "support/sanitized.hpp"
@@ -75,6 +75,19 @@ public:
         const bool is_sound = Regions(mesh.delaunay, memory).fill(parts, fault);
         parts.close();
         return is_sound;
+    }
+    /// A line that the regions of these seeds follow.
+    void cut(std::int64_t line, const Ring &ring,
+             const std::map<RegionNumber, std::vector<Point<2>>> &seeds) {
+        add_line(line, ring);
+        RegionParts parts(mesh.cache.host(), memory);
+        for (const auto &[region, of] : seeds)
+            for (const Point<2> &p : of) parts.add_seed(region, p);
+        RegionCuts cuts(mesh.delaunay, memory);
+        for (const auto &[a, b] : segments_of(ring)) cuts.add(a, b);
+        abacus_region_fault fault{};
+        EXPECT_TRUE(cuts.finish(parts, fault)) << fault.kind;
+        parts.close();
     }
     void clear_seeds(const std::map<RegionNumber, std::vector<Point<2>>> &seeds) {
         RegionParts parts(mesh.cache.host(), memory);
@@ -263,12 +276,75 @@ TEST(Regions, SeedsFillUpToFixedEdges) {
             if (HasFatalFailure()) return;
         }
         // A new ring takes its inside away from the first region.
-        mesh.add_line(4, box_ring(17, 17, 3));
-        mesh.clear_seeds({*seeds.begin()});
-        ASSERT_TRUE(mesh.fill({}, {*seeds.begin()}, fault)) << fault.kind;
+        mesh.cut(4, box_ring(17, 17, 3), seeds);
         mesh.expect_seeds(seeds);
         mesh.clear_seeds(seeds);
         mesh.expect_seeds({});
+    }
+}
+
+/// Whether two segments have more in common than a vertex.
+bool cross(const Segment &s, const Segment &t) {
+    const int a = orientation(s.first, s.second, t.first),
+              b = orientation(s.first, s.second, t.second),
+              c = orientation(t.first, t.second, s.first),
+              d = orientation(t.first, t.second, s.second);
+    return (a == 0 && b == 0) || (a * b < 0 && c * d < 0);
+}
+
+/// A line with up to four segments that crosses no other one; empty if none was found.
+Ring any_line(const Regioned &mesh, Random &random, bool is_ring) {
+    for (int attempt = 0; attempt < 50; ++attempt) {
+        Ring line;
+        for (unsigned i = 0; i < 2 + random() % 3; ++i) line.push_back(mesh.any(random));
+        if (is_ring) line.push_back(line.front());
+        std::vector<Segment> before;
+        for (const auto &[number, ring] : mesh.lines)
+            for (const Segment &s : segments_of(ring)) before.push_back(s);
+        bool is_free = true;
+        for (const Segment &s : segments_of(line)) {
+            is_free = is_free && s.first != s.second;
+            for (const Segment &t : before) is_free = is_free && !cross(s, t);
+            before.push_back(s);
+        }
+        if (is_free) return line;
+    }
+    return {};
+}
+
+TEST(Regions, NewLinesCutOffWhatNoSeedReaches) {
+    for (unsigned seed = 1; seed <= (sanitized ? 3u : 30u); ++seed) {
+        Random random(seed + 500);
+        Regioned mesh(random, 24, 150, seed % 2 == 0 ? little : 20 * little);
+        mesh.add_line(1, box_ring(1, 1, 22));
+        // A seed is on no line: lines have whole corners, and are not that long.
+        const auto within = [&] { return double(1 + random() % 999'982) / 999'983; };
+        std::map<RegionNumber, std::vector<Point<2>>> seeds;
+        for (RegionNumber region = 1; region <= 1 + seed % 2; ++region)
+            for (unsigned i = 0; i < (region == 2 ? 1 : 1 + seed % 3); ++i)
+                seeds[region].push_back({1 + 22 * within(), 1 + 22 * within()});
+        abacus_region_fault fault{};
+        if (seeds.size() == 2) {
+            mesh.add_line(2, {{1, 8}, {23, 16}});
+            const auto is_above = [](const Point<2> &p) {
+                return orientation(Point<2>{1, 8}, Point<2>{23, 16}, p) > 0;
+            };
+            for (Point<2> &p : seeds[1])
+                if (is_above(p)) p = {24 - p[0], 24 - p[1]};
+            for (Point<2> &p : seeds[2])
+                if (!is_above(p)) p = {24 - p[0], 24 - p[1]};
+        }
+        ASSERT_TRUE(mesh.fill({}, seeds, fault)) << fault.kind;
+        mesh.expect_seeds(seeds);
+        for (std::int64_t line = 10; line < 40; ++line) {
+            const Ring ring = any_line(mesh, random, random() % 2 == 0);
+            if (ring.empty()) continue;
+            mesh.cut(line, ring, seeds);
+            mesh.expect_seeds(seeds);
+            if (line % 8 == 0) change(mesh, random, 20);
+            mesh.expect_seeds(seeds);
+            if (HasFailure()) return;
+        }
     }
 }
 

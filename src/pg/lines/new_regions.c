@@ -143,6 +143,13 @@ write_parts(Change *change, const char *table, const NamedRows *parts, int32 *fi
 	census->seeded += (uint64) DatumGetInt64(values[2]);
 }
 
+/* The outlines and seeds for whose rows r `filter` holds. */
+static abacus_region_parts *
+read_parts(const Change *change, const char *filter)
+{
+	return mesh_regions_read(change->writer.host, &change->writer.header->facts, mesh_of(change), MESH_WRITE, filter);
+}
+
 static uint64
 add_regions(Change *change, const NamedRows *given)
 {
@@ -163,7 +170,7 @@ add_regions(Change *change, const NamedRows *given)
 	named_rows_free(parts);
 	change_open_build(change);
 	mesh_regions_fill(&change->writer, change->build,
-					  mesh_regions_read(&change->writer, psprintf("r.number OPERATOR(pg_catalog.>=) %d", first)));
+					  read_parts(change, psprintf("r.number OPERATOR(pg_catalog.>=) %d", first)));
 	return count;
 }
 
@@ -230,8 +237,7 @@ new_regions_remove(Change *change, const char *region)
 	require_lines(change);
 	change_open_build(change);
 	mesh_regions_clear(&change->writer, change->build,
-					   mesh_regions_read(&change->writer,
-										 psprintf("r.number OPERATOR(pg_catalog.=) %u", number)));
+					   read_parts(change, psprintf("r.number OPERATOR(pg_catalog.=) %u", number)));
 	SPI_connect();
 	level = plain_names_begin(true);
 	query_first(psprintf("SELECT count(*) FROM (SELECT FROM %s WHERE number = %u AND line IS NULL LIMIT 1) AS s",

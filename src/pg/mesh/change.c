@@ -12,6 +12,7 @@
 #include "pg/base/settings.h"
 #include "pg/mesh/change.h"
 #include "pg/mesh/mesh_lines.h"
+#include "pg/mesh/mesh_regions.h"
 #include "pg/mesh/notices.h"
 
 /* The handles are closed with the host. */
@@ -340,9 +341,11 @@ change_unfix(Change *change)
 {
 	Host	   *host = change->writer.host;
 	abacus_header *header = change->writer.header;
+	abacus_region_fault fault;
 
 	change_open_build(change);
-	host_run(host, abacus_build_unfix, change->build, change->freed, header);
+	if (host_run(host, abacus_build_unfix, change->build, change->freed, header, &fault) == ABACUS_END)
+		mesh_regions_refuse(&change->writer, &fault);
 	mesh_lines_close(host, &change->freed);
 	mesh_lines_fix_left(&change->writer, change->build, &change->fixed);
 }

@@ -3,7 +3,7 @@
  *
  * The core knows numbers of regions alone. Names, outlines and seeds are in the table of regions
  * (regions_table.c). A region is a function of these and of the lines. So where new lines lie within a
- * region that has seeds, its triangles are found anew.
+ * region that has seeds, it may lose triangles.
  */
 #include "postgres.h"
 
@@ -96,16 +96,14 @@ add_rows(Host *host, abacus_region_parts *parts, const char *query)
  * owns them until they are closed.
  */
 abacus_region_parts *
-mesh_regions_read(Writer *writer, const char *filter)
+mesh_regions_read(Host *host, const abacus_facts *facts, Relation mesh, MeshAccess access, const char *filter)
 {
-	Host	   *host = writer->host;
-	Relation	mesh = mesh_of(writer);
-	char	   *regions = regions_table_require(mesh, MESH_WRITE);
-	char	   *lines = lines_table_name(lines_table_require(mesh, MESH_WRITE));
+	char	   *regions = regions_table_require(mesh, access);
+	char	   *lines = lines_table_name(lines_table_require(mesh, access));
 	abacus_region_parts *parts = NULL;
 
-	host_run(host, abacus_region_parts_open, &host->table, &writer->header->facts,
-			 setting_sort_bytes(), &parts);
+	host_run(host, abacus_region_parts_open, &host->table, facts,
+			 access == MESH_READ ? setting_query_sort_bytes() : setting_sort_bytes(), &parts);
 	SPI_connect();
 	add_rows(host, parts,
 			 psprintf("SELECT r.number, l.line, l.part, l.x, l.y FROM %s AS r JOIN %s AS l "
@@ -118,12 +116,36 @@ mesh_regions_read(Writer *writer, const char *filter)
 	return parts;
 }
 
+static abacus_region_parts *
+read_parts(Writer *writer, const char *filter)
+{
+	return mesh_regions_read(writer->host, &writer->header->facts, mesh_of(writer), MESH_WRITE, filter);
+}
+
 /* ---- Faults ------------------------------------------------------------------------ */
 
 static char *
 place_in_words(const double *place)
 {
 	return psprintf("(%s, %s)", float8out_internal(place[0]), float8out_internal(place[1]));
+}
+
+/*
+ * "line 7", the result of a query; `others` without one. `before`: of what the statement saw when it
+ * began.
+ */
+static char *
+line_in_words(const char *query, int count, Oid *types, Datum *arguments, bool before, const char *others)
+{
+	MemoryContext caller = CurrentMemoryContext;
+	char	   *line = NULL;
+
+	SPI_connect();
+	if (SPI_execute_with_args(query, count, types, arguments, NULL, before, 1) == SPI_OK_SELECT &&
+		SPI_processed > 0)
+		line = MemoryContextStrdup(caller, SPI_getvalue(SPI_tuptable->vals[0], SPI_tuptable->tupdesc, 1));
+	SPI_finish();
+	return line == NULL ? pstrdup(others) : psprintf("line %s", line);
 }
 
 /* A line of an open outline that has a point at the place, in words for a message. */
@@ -135,26 +157,44 @@ open_line(Writer *writer, const abacus_region_fault *fault)
 	Datum		arguments[] = {
 		Int32GetDatum((int32) fault->region), Float8GetDatum(fault->place[0]), Float8GetDatum(fault->place[1])
 	};
-	MemoryContext caller = CurrentMemoryContext;
-	char	   *line = NULL;
 
-	SPI_connect();
-	if (SPI_execute_with_args(psprintf("SELECT l.line FROM %s AS r JOIN %s AS l "
-									   "ON l.line OPERATOR(pg_catalog.=) r.line "
-									   "WHERE r.number OPERATOR(pg_catalog.=) $1 "
-									   "AND l.x OPERATOR(pg_catalog.=) $2 AND l.y OPERATOR(pg_catalog.=) $3 "
-									   "ORDER BY l.line LIMIT 1", regions_table_require(mesh, MESH_WRITE),
-									   lines_table_name(lines_table_require(mesh, MESH_WRITE))),
-							  lengthof(types), types, arguments, NULL, false, 1) == SPI_OK_SELECT &&
-		SPI_processed > 0)
-		line = MemoryContextStrdup(caller, SPI_getvalue(SPI_tuptable->vals[0], SPI_tuptable->tupdesc, 1));
-	SPI_finish();
-	return line == NULL ? pstrdup("its lines") : psprintf("line %s", line);
+	return line_in_words(psprintf("SELECT l.line FROM %s AS r JOIN %s AS l "
+								  "ON l.line OPERATOR(pg_catalog.=) r.line "
+								  "WHERE r.number OPERATOR(pg_catalog.=) $1 "
+								  "AND l.x OPERATOR(pg_catalog.=) $2 AND l.y OPERATOR(pg_catalog.=) $3 "
+								  "ORDER BY l.line LIMIT 1", regions_table_require(mesh, MESH_WRITE),
+								  lines_table_name(lines_table_require(mesh, MESH_WRITE))),
+						 lengthof(types), types, arguments, false, "its lines");
+}
+
+/*
+ * The line that goes with a segment that a region ends at, in words for a message. Its rows have gone
+ * already: they are seen as they were when the statement began.
+ */
+static char *
+border_line(Writer *writer, const abacus_region_fault *fault)
+{
+	Oid			types[] = {FLOAT8OID, FLOAT8OID, FLOAT8OID, FLOAT8OID};
+	Datum		ends[] = {
+		Float8GetDatum(fault->place[0]), Float8GetDatum(fault->place[1]),
+		Float8GetDatum(fault->end[0]), Float8GetDatum(fault->end[1])
+	};
+	char	   *table = lines_table_name(lines_table_require(mesh_of(writer), MESH_WRITE));
+
+	return line_in_words(psprintf("SELECT line FROM (SELECT l.line, l.x, l.y, pg_catalog.lead(l.x) OVER w AS x1, "
+								  "pg_catalog.lead(l.y) OVER w AS y1 FROM %s AS l WHERE l.line IN (SELECT o.line FROM %s AS o "
+								  "WHERE o.x OPERATOR(pg_catalog.=) $1 AND o.y OPERATOR(pg_catalog.=) $2) "
+								  "WINDOW w AS (PARTITION BY l.line, l.part ORDER BY l.position)) AS s "
+								  "WHERE ((x OPERATOR(pg_catalog.=) $1 AND y OPERATOR(pg_catalog.=) $2 "
+								  "AND x1 OPERATOR(pg_catalog.=) $3 AND y1 OPERATOR(pg_catalog.=) $4) "
+								  "OR (x1 OPERATOR(pg_catalog.=) $1 AND y1 OPERATOR(pg_catalog.=) $2 "
+								  "AND x OPERATOR(pg_catalog.=) $3 AND y OPERATOR(pg_catalog.=) $4)) ORDER BY line LIMIT 1",
+								  table, table), lengthof(types), types, ends, true, "a line that goes");
 }
 
 /* Raises the error for regions that cannot be. */
-static void
-refuse(Writer *writer, const abacus_region_fault *fault)
+void
+mesh_regions_refuse(Writer *writer, const abacus_region_fault *fault)
 {
 	Relation	mesh = mesh_of(writer);
 	char	   *region = regions_table_region(mesh, MESH_WRITE, fault->region);
@@ -205,6 +245,14 @@ refuse(Writer *writer, const abacus_region_fault *fault)
 					 errhint("Give the inner region to the outer one as a hole, or remove it with "
 							 "abacus_unregion().")));
 			break;
+		case ABACUS_REGION_BORDER:
+			ereport(ERROR,
+					(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
+					 errmsg("region \"%s\" ends at %s", region, border_line(writer, fault)),
+					 errdetail("Without its segment from %s to %s the region would have no border there.", place,
+							   place_in_words(fault->end)),
+					 errhint("Remove the region first, with abacus_unregion().")));
+			break;
 	}
 }
 
@@ -218,7 +266,7 @@ mesh_regions_fill(Writer *writer, abacus_build *build, abacus_region_parts *part
 	abacus_region_fault fault;
 
 	if (host_run(host, abacus_build_fill_regions, build, parts, writer->header, &fault) == ABACUS_END)
-		refuse(writer, &fault);
+		mesh_regions_refuse(writer, &fault);
 	abacus_region_parts_close(parts);
 }
 
@@ -230,19 +278,14 @@ mesh_regions_clear(Writer *writer, abacus_build *build, abacus_region_parts *par
 	abacus_region_parts_close(parts);
 }
 
-static void
-renew(Writer *writer, abacus_build *build, const char *filter)
-{
-	mesh_regions_clear(writer, build, mesh_regions_read(writer, filter));
-	mesh_regions_fill(writer, build, mesh_regions_read(writer, filter));
-}
-
 /* Finds all regions anew: the mesh may have been built anew, and all its edges fixed. */
 void
 mesh_regions_renew(Writer *writer, abacus_build *build)
 {
-	if (writer->header->facts.census.regions > 0)
-		renew(writer, build, "true");
+	if (writer->header->facts.census.regions == 0)
+		return;
+	mesh_regions_clear(writer, build, read_parts(writer, "true"));
+	mesh_regions_fill(writer, build, read_parts(writer, "true"));
 }
 
 /* Regions met along segments. */
@@ -276,19 +319,25 @@ array_of(const Bitmapset *numbers)
 	return array.data;
 }
 
-/* Segments have been fixed: finds the regions with seeds anew through which they lead. */
+/* Segments have been fixed: the regions with seeds through which they lead lose what they cut off. */
 void
 mesh_regions_follow(Writer *writer, abacus_build *build, abacus_segments *segments)
 {
 	MetRegions	met = {.host = writer->host};
+	abacus_region_parts *parts;
+	abacus_region_fault fault;
 
 	if (writer->header->facts.census.seeded == 0)
 		return;
 	host_run(writer->host, abacus_build_regions_along, build, segments, meet, &met);
 	if (!bms_is_empty(met.numbers))
-		renew(writer, build,
-			  psprintf("r.number OPERATOR(pg_catalog.=) ANY ('{%s}'::pg_catalog.int4[]) AND r.number IN "
-					   "(SELECT s.number FROM %s AS s WHERE s.line IS NULL)", array_of(met.numbers),
-					   regions_table_require(mesh_of(writer), MESH_WRITE)));
+	{
+		parts = read_parts(writer,
+						   psprintf("r.line IS NULL AND r.number OPERATOR(pg_catalog.=) ANY ('{%s}'::pg_catalog.int4[])",
+										   array_of(met.numbers)));
+		if (host_run(writer->host, abacus_build_cut_regions, build, segments, parts, writer->header, &fault) == ABACUS_END)
+			mesh_regions_refuse(writer, &fault);
+		abacus_region_parts_close(parts);
+	}
 	bms_free(met.numbers);
 }

@@ -11,6 +11,7 @@
 #include "abacus/regions.h"
 #include "pg/base/settings.h"
 #include "pg/host/guard.h"
+#include "pg/mesh/mesh_regions.h"
 #include "pg/mesh/regions_table.h"
 #include "pg/sql/constrain/regions_fault.h"
 
@@ -51,9 +52,25 @@ region_sizes_read(CachedMesh *cached)
 	return sizes.rows;
 }
 
+/* Compares the triangles of all regions with what their outlines and seeds give them. */
+static char *
+parts_fault(CachedMesh *cached, Relation heap)
+{
+	abacus_region_parts *parts = mesh_regions_read(cached->host, &cached->header.facts, heap, MESH_READ, "true");
+	uint32		wrong;
+
+	host_run(cached->host, abacus_region_check, cached->mesh, parts, setting_query_sort_bytes(), &wrong);
+	abacus_region_parts_close(parts);
+	host_release(cached->host);
+	return wrong == 0 ? NULL
+		: psprintf("Region \"%s\" does not have the triangles that its outlines or seeds give it.",
+				   regions_table_region(heap, MESH_READ, wrong));
+}
+
 /*
  * Looks for a fault of the regions of a sound mesh: a number that no region has, or several, a region
- * without triangles, regions that are not counted. Returns what is wrong, or NULL.
+ * without triangles or with others than its own, regions that are not counted. Returns what is wrong, or
+ * NULL.
  */
 char *
 regions_fault(Oid mesh)
@@ -63,13 +80,12 @@ regions_fault(Oid mesh)
 	uint64		seeded = cached->header.facts.census.seeded;
 	Relation	heap = table_open(mesh, NoLock);
 	char	   *table = regions_table_require(heap, MESH_READ);
-	const char *fault = NULL;
+	char	   *fault = NULL;
 	NamedRows  *sizes;
 	Datum		counts[4];
 	bool		isnull[4];
 	int			level;
 
-	table_close(heap, NoLock);
 	SPI_connect();
 	sizes = region_sizes_read(cached);
 	host_release(cached->host);
@@ -84,10 +100,13 @@ regions_fault(Oid mesh)
 	named_rows_free(sizes);
 	SPI_finish();
 	if ((uint64) DatumGetInt64(counts[0]) != regions || (uint64) DatumGetInt64(counts[1]) != seeded)
-		fault = "The header counts more or fewer regions than there are.";
+		fault = pstrdup("The header counts more or fewer regions than there are.");
 	else if (DatumGetInt64(counts[2]) > 0)
-		fault = "Triangles have the number of a region that does not exist.";
+		fault = pstrdup("Triangles have the number of a region that does not exist.");
 	else if (DatumGetInt64(counts[3]) > 0)
-		fault = "A region has no triangles.";
-	return fault == NULL ? NULL : pstrdup(fault);
+		fault = pstrdup("A region has no triangles.");
+	else
+		fault = parts_fault(cached, heap);
+	table_close(heap, NoLock);
+	return fault;
 }
