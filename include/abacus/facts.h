@@ -75,6 +75,8 @@ typedef struct abacus_census
 	uint64_t lines_wait;   /* 1: their edges are not fixed yet, as the points span no simplex */
 	uint64_t regions;      /* of a constrained mesh, that the host keeps */
 	uint64_t seeded;       /* of them, those that have seeds */
+	uint64_t knows_ids;    /* 1: of a constrained mesh, no point has a greater id than ... */
+	int64_t greatest_id;   /* ... this one */
 	uint64_t outside;      /* points that came where the domain does not fit them, outside it or to
 							  a code that fills pages, since it was last chosen */
 } abacus_census;

@@ -24,9 +24,10 @@ namespace {
 /// A header begins with the bytes "ABACUS" and the format of the mesh, which covers the header and
 /// all its pages. The number is raised when any of them changes. The format alone says whether
 /// vertices have their attributes in simplex pages or apart, unless there are labels or markers,
-/// vertices that share their places, names in rows of their own, lines, or regions.
+/// vertices that share their places, names in rows of their own, lines, regions, or a greatest id.
 constexpr std::uint64_t name = 0x535543414241, format = 3, format_apart = 4, format_labelled = 5,
-                        format_extended = 6, format_constrained = 7, format_regions = 8;
+                        format_extended = 6, format_constrained = 7, format_regions = 8,
+                        format_ids = 9;
 constexpr int name_bits = 48;
 /// The header of an octree begins with the bytes "OCTREE" and a format of its own.
 constexpr std::uint64_t octree_name = 0x454552544f43ull, octree_format = 1;
@@ -170,6 +171,20 @@ template <class Census, class Visit> void visit_region_fields(Census &census, Vi
     visit(census.seeded);
 }
 
+/// The greatest id as a word without sign.
+void visit_id_fields(const abacus_census &census, HeaderWriter &write) {
+    write(static_cast<std::uint64_t>(census.greatest_id));
+}
+void visit_id_fields(abacus_census &census, HeaderReader &read) {
+    std::uint64_t id;
+    read(id);
+    census.greatest_id = static_cast<std::int64_t>(id);
+    census.knows_ids = 1;
+}
+bool has_ids(const abacus_facts &facts) {
+    return facts.standing == ABACUS_CONSTRAINED && facts.census.knows_ids != 0;
+}
+
 /// Whether the facts need one of the latest formats.
 bool is_extended(const abacus_facts &facts) {
     return facts.census.split > 0 || is_wide(facts.columns) || facts.standing == ABACUS_CONSTRAINED;
@@ -205,9 +220,9 @@ void check_lines(const abacus_facts &facts, bool has_lines) {
         throw_corrupted("The header's count of lines is not valid.");
 }
 
-/// Regions, in the header since format 8.
-void check_regions(const abacus_census &census, bool has_regions) {
-    if (has_regions != (census.regions > 0) || census.regions > ABACUS_MAX_REGIONS ||
+/// Regions, in the header since format 8; format 9 has their counts also if there are none.
+void check_regions(const abacus_census &census, bool has_regions, bool has_ids) {
+    if ((has_regions != (census.regions > 0) && !has_ids) || census.regions > ABACUS_MAX_REGIONS ||
         census.seeded > census.regions || (has_regions && census.lines == 0))
         throw_corrupted("The header's count of regions is not valid.");
 }
@@ -215,17 +230,18 @@ void check_regions(const abacus_census &census, bool has_regions) {
 /// Labels of simplices, markers of facets, vertices that share their places, lines; then names.
 void read_labels(HeaderReader &read, std::uint64_t found, abacus_header &header) {
     const bool extended = found >= format_extended, has_lines = found >= format_constrained,
-               has_regions = found >= format_regions;
+               has_regions = found >= format_regions, has_ids = found >= format_ids;
     abacus_facts &facts = header.facts;
     visit_label_fields(facts, read);
     if (extended) read(facts.census.split);
     if (has_lines) visit_line_fields(facts.census, read);
     if (has_regions) visit_region_fields(facts.census, read);
+    if (has_ids) visit_id_fields(facts.census, read);
     if (facts.form.srid > ABACUS_MAX_SRID) throw_corrupted("The header's SRID is out of range.");
     check_labels(facts);
     check_split(facts);
     check_lines(facts, has_lines);
-    check_regions(facts.census, has_regions);
+    check_regions(facts.census, has_regions, has_ids);
     if (is_extended(facts) != extended || !(extended || is_labelled(facts)))
         throw_corrupted("The header's format does not fit its contents.");
     if (is_wide(facts.columns))
@@ -257,6 +273,7 @@ void check_octree_format(std::uint64_t found) {
 }
 
 std::uint64_t format_of(const abacus_facts &facts) {
+    if (has_ids(facts)) return format_ids;
     if (facts.census.regions > 0) return format_regions;
     if (facts.standing == ABACUS_CONSTRAINED) return format_constrained;
     if (is_extended(facts)) return format_extended;
@@ -270,11 +287,11 @@ bool has_name(std::uint64_t found, std::uint64_t name) {
 
 void check_format(std::uint64_t found) {
     if (!has_name(found, name)) throw_corrupted("The row with the lowest key is not a header.");
-    if (found >> name_bits < format || found >> name_bits > format_regions)
+    if (found >> name_bits < format || found >> name_bits > format_ids)
         throw Error(ABACUS_ERROR_STATE,
                     "mesh is stored in format " + std::to_string(found >> name_bits) +
                         ", but this version of Abacus reads formats " + std::to_string(format) +
-                        " to " + std::to_string(format_regions),
+                        " to " + std::to_string(format_ids),
                     {},
                     "Read its points with the version that wrote it (abacus_vertices), and build "
                     "it anew.");
@@ -363,7 +380,8 @@ size_t abacus_header_encode(const abacus_header *header, unsigned char *bytes) {
         visit_label_fields(facts, write);
         if (extended) write(facts.census.split);
         if (facts.standing == ABACUS_CONSTRAINED) visit_line_fields(facts.census, write);
-        if (facts.census.regions > 0) visit_region_fields(facts.census, write);
+        if (facts.census.regions > 0 || has_ids(facts)) visit_region_fields(facts.census, write);
+        if (has_ids(facts)) visit_id_fields(facts.census, write);
         if (!is_wide(facts.columns))
             write.names(*header, extended ? 0 : facts.columns.attributes, names_of(facts.columns));
     } else if (facts.form.srid != 0) {

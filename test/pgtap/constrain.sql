@@ -267,5 +267,28 @@ SELECT throws_ok($$ SELECT public.abacus_constrain('field', 'VALUES (801, 1, 0),
 SELECT is(public.abacus_delete('field', 'VALUES (0, 0, 0)') > 0, true, 'the same in questions of the core');
 RESET search_path;
 
+-- points of lines in a mesh with many vertices are looked up, and found as by a scan
+SELECT abacus_triangulate('broad', 'SELECT 100 * i + j AS id, i::float8 AS x, j::float8 AS y, (i + j)::float8 AS h FROM generate_series(0, 40) AS i, generate_series(0, 40) AS j');
+SELECT abacus_insert('broad', 'VALUES (5000, 7, 7, 14)'); -- repeats vertex 707
+SELECT is(abacus_constrain('broad', 'SELECT 1, 1, NULL::bigint, 0.5, 0.5 UNION ALL SELECT 1, 2, NULL, 2, 3'), 1::bigint, 'a new point and a vertex');
+SELECT is((SELECT string_agg(point::text, ' ' ORDER BY position) FROM abacus_lines('broad')), '5001 203', 'the new one has an id above all others');
+SELECT throws_ok($$SELECT abacus_constrain('broad', 'VALUES (2, 1, 101, 20.5, 0.5), (2, 2, NULL, 25.5, 5.25)')$$, '22023', 'point 101 is at another place in the mesh');
+SELECT throws_ok($$SELECT abacus_constrain('broad', 'VALUES (2, 1, 5000, 20.5, 0.5), (2, 2, NULL, 25.5, 5.25)')$$, '22023', 'point 5000 is at another place in the mesh', 'a repeated point too');
+SELECT throws_ok($$SELECT abacus_constrain('broad', 'VALUES (2, 1, 6000, 20.5, 0.5), (2, 2, 6000, 25.5, 5.25)')$$, '22023', 'point 6000 is given with two places', 'and a new one');
+SELECT is(abacus_constrain('broad', 'VALUES (2, 1, 5000, 7, 7), (2, 2, 909, 9, 9), (2, 3, 7000, 9.5, 9.5)'), 1::bigint, 'a repeated point, a vertex and a new id at their places');
+SELECT is(abacus_constrain('broad', 'VALUES (3, 1, NULL::bigint, 30.5, 0.5), (3, 2, NULL, 30.5, 8.5)'), 1::bigint, 'new ids');
+SELECT is((SELECT string_agg(point::text, ' ' ORDER BY position) FROM abacus_lines('broad') WHERE line = 3), '7001 7002', 'above those that lines gave');
+SELECT abacus_insert('broad', 'VALUES (8000, 35.5, 35.5, 1)');
+SELECT abacus_delete('broad', 'VALUES (8000, 35.5, 35.5, 1)');
+SELECT throws_ok($$SELECT abacus_constrain('broad', 'SELECT 4, 1, NULL::bigint, 12::float8, 30.5::float8, 4::float8 AS h UNION ALL SELECT 4, 2, NULL, 14, 31, 46')$$, '22023', 'attribute "h" has two values at (14, 31)', 'attributes of vertices are compared');
+SELECT is(abacus_constrain('broad', 'SELECT 4, 1, NULL::bigint, 12::float8, 30.5::float8, 4::float8 AS h UNION ALL SELECT 4, 2, NULL, 14, 31, 45'), 1::bigint, 'attributes');
+SELECT cmp_ok((SELECT min(point) FROM abacus_lines('broad') WHERE line = 4 AND position = 1), '>', 7002::bigint, 'no id comes twice');
+SELECT abacus_stage('broad', 'VALUES (9000, 33.5, 1.5, 1)');
+SELECT is(abacus_constrain('broad', 'VALUES (5, 1, NULL::bigint, 33.5, 1.5), (5, 2, NULL, 34.5, 2.5)'), 1::bigint, 'a point that waits');
+SELECT abacus_triangulate('broad');
+SELECT is((SELECT string_agg(point::text, ' ' ORDER BY position) FROM abacus_lines('broad') WHERE line = 5), '9000 9001', 'is found');
+SELECT is((SELECT count(DISTINCT id) FROM abacus_vertices('broad')), (SELECT count(*) FROM abacus_vertices('broad')), 'all ids are different');
+SELECT is((SELECT count(*) FROM abacus_check('broad')), 0::bigint, 'the mesh is sound');
+
 SELECT * FROM finish();
 ROLLBACK;

@@ -394,7 +394,7 @@ TEST(Header, AnotherFormatIsSaid) {
         ASSERT_EQ(abacus_header_decode(bytes.data(), bytes.size(), &header, &error), ABACUS_ERROR);
         EXPECT_EQ(error.kind, ABACUS_ERROR_STATE);
         EXPECT_EQ(error.message, "mesh is stored in format " + std::to_string(other) +
-                                     ", but this version of Abacus reads formats 3 to 8");
+                                     ", but this version of Abacus reads formats 3 to 9");
     }
     bytes[5] ^= 1;
     ASSERT_EQ(abacus_header_decode(bytes.data(), bytes.size(), &header, &error), ABACUS_ERROR);
@@ -563,6 +563,30 @@ TEST(Header, OfAMeshWithRegions) {
     EXPECT_FALSE(taken([](abacus_header &h) { h.facts.census.seeded = 3; }));
     EXPECT_FALSE(taken([](abacus_header &h) { h.facts.census.lines = 0; }));
     EXPECT_FALSE(taken([](abacus_header &h) { h.facts.standing = ABACUS_DELAUNAY; }));
+}
+
+TEST(Header, OfAMeshWithLinesKeepsTheGreatestId) {
+    for (const std::int64_t id : {INT64_MIN, std::int64_t{-1}, std::int64_t{7}, INT64_MAX})
+        for (const std::uint64_t regions : {0, 2}) {
+            abacus_header header = full_header(1), decoded;
+            header.facts.form.dimension = 2;
+            header.facts.standing = ABACUS_CONSTRAINED;
+            header.facts.census.lines = 3;
+            header.facts.census.regions = regions;
+            header.facts.census.knows_ids = 1;
+            header.facts.census.greatest_id = id;
+            ASSERT_TRUE(decodes(encode(header), &decoded));
+            EXPECT_EQ(decoded.facts.census.knows_ids, 1u);
+            EXPECT_EQ(decoded.facts.census.greatest_id, id);
+            EXPECT_EQ(decoded.facts.census.regions, regions);
+            header.facts.census.knows_ids = 0; // as those that have been stored before
+            ASSERT_TRUE(decodes(encode(header), &decoded));
+            EXPECT_EQ(decoded.facts.census.knows_ids, 0u);
+        }
+    abacus_header header = full_header(1), decoded; // without lines it is not kept
+    header.facts.census.knows_ids = 1;
+    ASSERT_TRUE(decodes(encode(header), &decoded));
+    EXPECT_EQ(decoded.facts.census.knows_ids, 0u);
 }
 
 TEST(Header, DamagedBytesNeverCrash) {

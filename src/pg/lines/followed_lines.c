@@ -147,6 +147,7 @@ static bool
 read_lines(FollowedLines *lines, const LineQueries *queries)
 {
 	lines->lines.vertices = queries->vertices;
+	lines->lines.census = &lines->change->writer.header->facts.census;
 	lines->lines.reading = queries->reading;
 	lines->kind = queries->kind;
 	if (!lines->all && lines->changed == NULL)

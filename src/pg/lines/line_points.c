@@ -2,8 +2,8 @@
  * line_points.c: the points of lines that a query gives: checked, found in the mesh, or new.
  *
  * All is SQL over the rows of the query (LINE_ROWS), the points of the mesh that have their ids or
- * their places (FOUND_POINTS), and what comes of both (LINE_POINTS). One scan of the mesh finds the points,
- * and another one the greatest id if points without id are new.
+ * their places (FOUND_POINTS, found_points.c), and what comes of both (LINE_POINTS). Points without id
+ * that are new need the greatest id. The mesh knows it, or a scan finds it once.
  */
 #include "postgres.h"
 
@@ -126,45 +126,6 @@ line_points_check(const NewLines *lines)
 }
 
 /* ---- Points of the mesh -------------------------------------------------------------- */
-
-static const NamedColumn found_columns[FOUND_COLUMNS] = {
-	{"id", INT8OID}, {"x", FLOAT8OID}, {"y", FLOAT8OID}, {"vertex", INT8OID},
-	{"sequence", INT8OID}, {"attributes", FLOAT8ARRAYOID}, {"by_id", BOOLOID}
-};
-
-/* No points so far; the caller puts them, and registers the rows. */
-NamedRows *
-line_points_found(void)
-{
-	return named_rows_create(FOUND_POINTS, found_columns, FOUND_COLUMNS);
-}
-
-/*
- * Finds the points of the mesh with the ids of rows, or at their places, by a scan of the mesh. A line
- * can name a point that is gone, if its place still has another one. So what the lines of the mesh name
- * counts as found as well: a place with its id, or, where rows have no places, an id that the mesh lacks.
- */
-NamedRows *
-line_points_scan(const NewLines *lines)
-{
-	const char *by_place = lines->shape.has_nameless || lines->shape.has_attributes
-		? "LEFT JOIN (SELECT DISTINCT point FROM " LINE_ROWS ") AS g ON g.point = v.id "
-		"LEFT JOIN (SELECT DISTINCT x, y FROM " LINE_ROWS ") AS p ON p.x = v.x AND p.y = v.y "
-		"WHERE g.point IS NOT NULL OR p.x IS NOT NULL"
-		: "JOIN (SELECT DISTINCT point FROM " LINE_ROWS ") AS g ON g.point = v.id";
-	const char *named = lines->shape.has_places
-		? "JOIN (SELECT DISTINCT point, x, y FROM " LINE_ROWS ") AS g ON g.x = l.x AND g.y = l.y AND g.point = l.point"
-		: "JOIN (SELECT point FROM " LINE_ROWS " EXCEPT SELECT id FROM there) AS g ON g.point = l.point";
-	char	   *query = psprintf("WITH there AS MATERIALIZED (SELECT v.id, v.x, v.y, v.vertex, v.sequence, %s, "
-								 "g.point IS NOT NULL FROM %s AS v %s) TABLE there",
-								 lines->shape.has_attributes ? "v.attributes" : "NULL::float8[]",
-								 lines->vertices, by_place);
-
-	if (lines->table != NULL)
-		query = psprintf("%s UNION ALL SELECT DISTINCT l.point, l.x, l.y, NULL::bigint, NULL::bigint, "
-						 "NULL::float8[], true FROM %s AS l %s", query, lines->table, named);
-	return named_rows_of_query(FOUND_POINTS, found_columns, FOUND_COLUMNS, query);
-}
 
 /* An id alone that the mesh has at two places. */
 static void
@@ -290,10 +251,14 @@ greatest_id(const NewLines *lines)
 	Datum		count;
 	bool		isnull;
 
-	query_first(psprintf("SELECT greatest((SELECT max(v.id) FROM %s AS v), (SELECT max(g.point) FROM " LINE_ROWS
-						 " AS g))", lines->vertices), &value, &isnull, 1);
-	if (isnull)
-		return 0;
+	if (!lines->census->knows_ids)
+	{
+		query_first(psprintf("SELECT max(v.id) FROM %s AS v", lines->vertices), &value, &isnull, 1);
+		lines->census->greatest_id = isnull ? 0 : DatumGetInt64(value);
+		lines->census->knows_ids = 1;
+	}
+	query_first(psprintf("SELECT greatest('" INT64_FORMAT "'::bigint, (SELECT max(g.point) FROM " LINE_ROWS " AS g))",
+						 lines->census->greatest_id), &value, &isnull, 1);
 	query_first("SELECT count(*) FROM " LINE_ROWS " WHERE point IS NULL", &count, &isnull, 1);
 	if (DatumGetInt64(value) > PG_INT64_MAX - DatumGetInt64(count))
 		ereport(ERROR,

@@ -6,6 +6,7 @@
 
 #include "abacus/mesh_header.h"
 #include "pg/lines/line_rows.h"
+#include "pg/mesh/change.h"
 
 /* Rows with a name: line, position, point, x, y, attributes, is_new, part. */
 #define LINE_POINTS "abacus_points"
@@ -36,11 +37,13 @@ typedef struct NewLines
 	bool		is_known;		/* points with an id are in the mesh, at the places of the rows */
 	const char *new_ids;		/* SELECT of x, y, id, from rows of `nameless` in `known` without an id;
 								 * NULL: ids above the greatest */
+	abacus_census *census;		/* of the mesh that is being changed: knows the greatest id, or learns it */
 } NewLines;
 
 extern void line_points_check(const NewLines *lines);
 extern NamedRows *line_points_found(void);
 extern NamedRows *line_points_scan(const NewLines *lines);
+extern NamedRows *line_points_find(Change *change, const NewLines *lines);
 extern NamedRows *line_points_of_query(const char *query);
 extern NamedRows *line_points_resolve(const NewLines *lines, NamedRows *found);
 

@@ -279,7 +279,7 @@ add_lines(Change *change, const NewLines *lines, const char *kind, ExistingLines
 	int			level = plain_names_begin(true);
 
 	line_points_check(lines);
-	points = line_points_resolve(lines, line_points_scan(lines));
+	points = line_points_resolve(lines, line_points_find(change, lines));
 	plain_names_end(level);
 	count = new_lines_put(change, points, kind, existing, allowed);
 	named_rows_free(points);
@@ -305,7 +305,11 @@ new_lines_add(Change *change, Source *source, const char *vertices, const char *
 			  ExistingLines existing, const char *z, const NewPoints *points)
 {
 	Oid			table = mesh_lines_table(mesh_of(change), MESH_WRITE);
-	NewLines	lines = {.vertices = vertices,.reading = {abacus_names_of(change->writer.header), z, NULL}};
+	NewLines	lines = {
+		.vertices = vertices,
+		.reading = {abacus_names_of(change->writer.header), z, NULL},
+		.census = &change->writer.header->facts.census
+	};
 	NamedRows  *rows = line_rows_read(source, &lines.reading, &lines.shape);
 	uint64		count = 0;
 

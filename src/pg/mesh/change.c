@@ -70,6 +70,8 @@ change_open_stage(Change *change, const abacus_facts *shape)
 	abacus_stage_close(change->stage);
 	change->stage = NULL;
 	change->points = 0;
+	change->point_words = 1 + shape->form.dimension + shape->columns.attributes;
+	change->greatest_id = PG_INT64_MIN;
 	host_run(host, abacus_stage_open, &host->table, shape, setting_sort_bytes(), &change->stage);
 }
 
@@ -80,6 +82,8 @@ change_add(Change *change, const uint64 *points, size_t count)
 	Host	   *host = change->writer.host;
 
 	host_run(host, abacus_stage_add, change->stage, points, count);
+	for (size_t i = 0; i < count; i++)
+		change->greatest_id = Max(change->greatest_id, (int64) points[i * change->point_words]);
 	change->points += count;
 }
 
@@ -124,9 +128,12 @@ void
 change_swap_stages(Change *change)
 {
 	abacus_stage *stage = change->stage;
+	int64		greatest_id = change->greatest_id;
 
 	change->stage = change->put_aside;
+	change->greatest_id = change->greatest_aside;
 	change->put_aside = stage;
+	change->greatest_aside = greatest_id;
 }
 
 /*
@@ -194,6 +201,16 @@ change_show(Change *change)
 	census->marked = marked;
 }
 
+/* The points of the stage become points of the mesh: what is known of its ids stays true. */
+static void
+note_ids(Change *change)
+{
+	abacus_census *census = &change->writer.header->facts.census;
+
+	if (census->knows_ids)
+		census->greatest_id = Max(census->greatest_id, change->greatest_id);
+}
+
 /* Inserts the points of the stage. */
 void
 change_insert(Change *change)
@@ -203,6 +220,7 @@ change_insert(Change *change)
 
 	host_run(host, abacus_stage_end, change->stage, &header->facts);
 	change_open_build(change);
+	note_ids(change);
 	host_run(host, abacus_build_insert, change->build, change->stage, change->on_duplicate,
 			 header);
 	change->inserts = true;
@@ -213,6 +231,7 @@ change_insert(Change *change)
 void
 change_stage(Change *change)
 {
+	note_ids(change);
 	host_run(change->writer.host, abacus_stage_finish, change->stage,
 			 &change->writer.header->facts);
 }

@@ -16,7 +16,10 @@ typedef struct Change
 	abacus_stage *stage;		/* the points */
 	abacus_build *build;
 	uint64		points;			/* how many it holds */
+	uint32		point_words;	/* of each */
+	int64		greatest_id;	/* of them */
 	abacus_stage *put_aside;	/* another one */
+	int64		greatest_aside; /* id of its points */
 	abacus_on_duplicate on_duplicate;
 	uint64		duplicates;		/* of the mesh before the change */
 	bool		may_replace;	/* the user can choose 'replace' */

@@ -18,15 +18,13 @@ abacus_sql_stage(PG_FUNCTION_ARGS)
 {
 	Source		source;
 	Change	   *change;
-	Host	   *host;
 	uint64		points;
 
 	source_prepare(&source, text_to_cstring(PG_GETARG_TEXT_PP(1)));
 	change = change_begin(PG_GETARG_OID(0), "abacus_stage()");
 	by_hand_refuse_points(change);
-	host = change->writer.host;
 	change_read(change, &source);
-	host_run(host, abacus_stage_finish, change->stage, &change->writer.header->facts);
+	change_stage(change);
 	points = change->points;
 	change_end(change);
 	source_finish(&source);

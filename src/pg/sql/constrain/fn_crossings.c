@@ -174,7 +174,11 @@ static NamedRows *
 read_points(Source *source, LineCrossings *crossings, const char *vertices)
 {
 	abacus_header *header = palloc0(sizeof(abacus_header));
-	NewLines	lines = {.vertices = vertices, .reading = {abacus_names_of(header), NULL, NULL}};
+	NewLines	lines = {
+		.vertices = vertices,
+		.reading = {abacus_names_of(header), NULL, NULL},
+		.census = &header->facts.census
+	};
 	NamedRows  *rows = line_rows_read(source, &lines.reading, &lines.shape);
 	NamedRows  *points;
 	int			level = plain_names_begin(false);
