@@ -385,6 +385,7 @@ PG_SOURCES += src/pg/sql/lines/fn_ray.c
 PG_SOURCES += src/pg/sql/lines/fn_visible.c
 PG_SOURCES += src/pg/sql/load/fn_label.c
 PG_SOURCES += src/pg/sql/load/fn_load.c
+PG_SOURCES += src/pg/sql/load/retriangulate.c
 PG_SOURCES += src/pg/sql/load/fn_mark.c
 PG_SOURCES += src/pg/sql/octree/fn_octree.c
 PG_SOURCES += src/pg/sql/octree/fn_octree_ask.c

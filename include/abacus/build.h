@@ -100,6 +100,8 @@ typedef struct abacus_named_place
 ABACUS_API abacus_status abacus_build_hold(abacus_build *build, abacus_error *error);
 ABACUS_API abacus_status abacus_build_settle(abacus_build *build, abacus_header *header,
 											 abacus_error *error);
+/* Simplices with labels that changes have removed so far, whether or not others have inherited them. */
+ABACUS_API uint64_t abacus_build_lost_labels(const abacus_build *build);
 
 /*
  * update: inserts what waits, then, for each point of a stage that has ended, gives a point of the

@@ -73,10 +73,13 @@ ABACUS_API abacus_status abacus_load_edges(abacus_load *load, abacus_loaded_edge
  */
 ABACUS_API abacus_status abacus_load_ties(abacus_load *load, abacus_segments *segments,
 										  uint64_t *count, abacus_error *error);
-/* After the check: writes the pages and brings the header up to date. */
-ABACUS_API abacus_status abacus_load_write(abacus_load *load, abacus_header *header,
-										   abacus_error *error);
-/* Or instead: adds the vertices of the simplices to a stage, to be triangulated again. */
+/*
+ * After the check: writes the pages and brings the header up to date. The vertices can be staged after
+ * that with `keeps_vertices`.
+ */
+ABACUS_API abacus_status abacus_load_write(abacus_load *load, int keeps_vertices,
+										   abacus_header *header, abacus_error *error);
+/* After that, or instead: adds the vertices of the simplices to a stage, to be triangulated again. */
 ABACUS_API abacus_status abacus_load_stage(abacus_load *load, abacus_stage *stage,
 										   abacus_error *error);
 ABACUS_API void abacus_load_close(abacus_load *load);

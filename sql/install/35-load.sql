@@ -12,12 +12,13 @@ CREATE FUNCTION abacus_load(
     labels text[] DEFAULT NULL,
     facets text DEFAULT NULL,
     split_nodes boolean DEFAULT false,
-    lines text DEFAULT NULL)
+    lines text DEFAULT NULL,
+    inherit boolean DEFAULT false)
 RETURNS bigint
 AS 'MODULE_PATHNAME', 'abacus_sql_load'
 LANGUAGE C VOLATILE PARALLEL UNSAFE;
-COMMENT ON FUNCTION abacus_load(text, text, text, text[], double precision[], double precision[], boolean, boolean, text[], text, boolean, text) IS
-    'makes a mesh of a triangulation made elsewhere, Delaunay or not. Checks it exactly. With retriangulate, one that is not Abacus'' own becomes the triangulation of its vertices. With split_nodes, vertices at one place are kept apart by their ids. With lines, their edges are fixed, and a triangulation that is Delaunay but for them can be changed. Returns the number of simplices. Shapes: vertices returns id, x, y[, z] and attributes, simplices v0, v1, v2[, v3] and labels, facets v0, v1[, v2], marker, lines line, v0, v1; lower and upper are {x, y}, in space {x, y, z}. Units: lower and upper in those of the coordinates. Errors: 22023 no triangulation, with what is wrong by ids; 55000 lines in space; those of abacus_create and abacus_stage';
+COMMENT ON FUNCTION abacus_load(text, text, text, text[], double precision[], double precision[], boolean, boolean, text[], text, boolean, text, boolean) IS
+    'makes a mesh of a triangulation made elsewhere, Delaunay or not. Checks it exactly. With retriangulate, one that is not Abacus'' own becomes the triangulation of its vertices. Labels and markers stay with simplices and facets that are in both; with inherit, new simplices get the labels of those that their centroids lay in. With split_nodes, vertices at one place are kept apart by their ids. With lines, their edges are fixed, and a triangulation that is Delaunay but for them can be changed. Returns the number of simplices. Shapes: vertices returns id, x, y[, z] and attributes, simplices v0, v1, v2[, v3] and labels, facets v0, v1[, v2], marker, lines line, v0, v1; lower and upper are {x, y}, in space {x, y, z}. Units: lower and upper in those of the coordinates. Errors: 22023 no triangulation, with what is wrong by ids; 55000 lines in space; those of abacus_create and abacus_stage';
 
 CREATE FUNCTION abacus_label(mesh regclass, query text)
 RETURNS bigint

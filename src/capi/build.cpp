@@ -44,6 +44,10 @@ abacus_status abacus_build_settle(abacus_build *build, abacus_header *header, ab
         [&](auto &opened, abacus_header &changed) { opened.settle(changed); });
 }
 
+uint64_t abacus_build_lost_labels(const abacus_build *build) {
+    return build->build.visit([](const auto &opened) { return opened.lost_labels(); });
+}
+
 abacus_status abacus_build_insert(abacus_build *build, abacus_stage *stage,
                                   abacus_on_duplicate on_duplicate, abacus_header *header,
                                   abacus_error *error) {

@@ -95,10 +95,11 @@ abacus_status abacus_load_check(abacus_load *load, abacus_delaunay *outcome, aba
 
 const char *abacus_load_detail(const abacus_load *load) { return load->detail.c_str(); }
 
-abacus_status abacus_load_write(abacus_load *load, abacus_header *header, abacus_error *error) {
+abacus_status abacus_load_write(abacus_load *load, int keeps_vertices, abacus_header *header,
+                                abacus_error *error) {
     return abacus::dispatch(load->load, error, [&](auto &loading) {
         abacus_header changed = *header; // the caller's stays as it is if this fails
-        loading.write(changed);
+        loading.write(keeps_vertices != 0, changed);
         *header = changed;
     });
 }

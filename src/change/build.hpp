@@ -47,6 +47,7 @@ public:
     /// count as one.
     void hold() { labels_.hold(); }
     void settle(abacus_header &header);
+    std::uint64_t lost_labels() const { return labels_.lost(); }
     /// Inserts at most `limit` of the points that wait (0 = all).
     void run(std::uint64_t limit, abacus_header &header);
     /// Inserts what waits, then the points of a stage.

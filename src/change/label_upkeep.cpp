@@ -55,6 +55,7 @@ template <int D> void LabelUpkeep<D>::sweep_labels() {
         gone += sweep.sweep(stretch, lose);
     if (gone > census.labelled) throw_corrupted("The header counts too few labels.");
     census.labelled -= gone;
+    lost_ += gone;
     if (heirs) census.labelled += heirs->pass_on(sweep, stored_->stretches());
     work_.counters() += sweep.finish();
 }

@@ -28,6 +28,8 @@ public:
     void keep_all() {
         if (stored_ != nullptr) stored_->clear();
     }
+    /// Simplices with labels that have gone.
+    std::uint64_t lost() const { return lost_; }
     /// Sorts labels and markers by the keys of the new domain; `from` is the old one.
     void rekey(const Domain<D> &from, std::size_t memory);
 
@@ -39,6 +41,7 @@ private:
     Workspace<D> &work_;
     StoredPages *const stored_;
     bool holds_ = false;
+    std::uint64_t lost_ = 0;
 };
 
 extern template class LabelUpkeep<2>;

@@ -82,7 +82,6 @@ template <int D> abacus_counters Load<D>::write_vertices(bool is_listed) {
     }
     if (is_listed) list.finish();
     attributes.flush();
-    ordered_.close();
     return attributes.take_counters();
 }
 
@@ -130,7 +129,7 @@ template <int D> abacus_delaunay Load<D>::check() {
     return outcome();
 }
 
-template <int D> void Load<D>::write(abacus_header &header) {
+template <int D> void Load<D>::write(bool keeps_vertices, abacus_header &header) {
     if (simplex_count_ == 0) return;
     const bool is_own = can_be_changed();
     add_ghosts();
@@ -145,6 +144,10 @@ template <int D> void Load<D>::write(abacus_header &header) {
     end(elements_);
     header.counters = pages.counters(); // nothing was done with it before
     header.counters += write_vertices(!is_own);
+    if (keeps_vertices)
+        ordered_.rewind();
+    else
+        ordered_.close();
     if (labelled_) write_labels(header);
     if (marker_rows_) write_markers(header);
 

@@ -92,9 +92,10 @@ public:
         ties_.close();
         return tie_count_;
     }
-    /// Writes the pages and brings the header of the empty mesh up to date.
-    void write(abacus_header &header);
-    /// Or instead: calls add(vertex) with the record of each vertex of a simplex.
+    /// Writes the pages and brings the header of the empty mesh up to date. Vertices can be given
+    /// after that if they are kept.
+    void write(bool keeps_vertices, abacus_header &header);
+    /// After that, or instead: calls add(vertex) with the record of each vertex of a simplex.
     template <class Add> void give_vertices(Add add) {
         for (auto *sort : {&links_, &boundary_, &elements_, &labelled_, &marker_rows_})
             if (*sort) end(*sort); // taking the vertices needs memory

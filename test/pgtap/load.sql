@@ -2,10 +2,10 @@
 BEGIN;
 SELECT no_plan();
 
-SELECT has_function('abacus_load', ARRAY['text', 'text', 'text', 'text[]', 'double precision[]', 'double precision[]', 'boolean', 'boolean', 'text[]', 'text', 'boolean', 'text'], 'abacus_load');
+SELECT has_function('abacus_load', ARRAY['text', 'text', 'text', 'text[]', 'double precision[]', 'double precision[]', 'boolean', 'boolean', 'text[]', 'text', 'boolean', 'text', 'boolean'], 'abacus_load');
 SELECT function_returns('abacus_load', 'bigint', 'it returns a number');
 SELECT volatility_is('abacus_load', 'volatile', 'it changes things');
-SELECT isnt(obj_description('abacus_load(text, text, text, text[], float8[], float8[], boolean, boolean, text[], text, boolean, text)'::regprocedure), NULL, 'it has a comment');
+SELECT isnt(obj_description('abacus_load(text, text, text, text[], float8[], float8[], boolean, boolean, text[], text, boolean, text, boolean)'::regprocedure), NULL, 'it has a comment');
 
 -- The same simplices and vertices, whatever the order of rows and corners.
 CREATE FUNCTION pg_temp.simplices(mesh regclass) RETURNS TABLE (ids bigint[]) LANGUAGE sql AS

@@ -121,7 +121,7 @@ abacus_status MeshOf<D>::load(const std::vector<InputOf<D>> &vertices,
             return staged == ABACUS_OK ? abacus_stage_finish(stage, &header.facts, &error) : staged;
         });
     else if (status == ABACUS_OK)
-        status = abacus_load_write(load, &header, &error);
+        status = abacus_load_write(load, 0, &header, &error);
     abacus_load_close(load);
     return status;
 }

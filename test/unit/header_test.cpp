@@ -388,7 +388,7 @@ TEST(Header, AnotherFormatIsSaid) {
     abacus_header header;
     abacus_error error{};
     const unsigned format = bytes[6] + 256u * bytes[7];
-    for (const unsigned other : {format - 1, format + 6, 0xffffu}) {
+    for (const unsigned other : {format - 1, format + 7, 0xffffu}) {
         bytes[6] = static_cast<unsigned char>(other);
         bytes[7] = static_cast<unsigned char>(other >> 8);
         ASSERT_EQ(abacus_header_decode(bytes.data(), bytes.size(), &header, &error), ABACUS_ERROR);

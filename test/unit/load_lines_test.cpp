@@ -148,7 +148,7 @@ void expect_as_made_anew(std::size_t fixed, std::size_t memory, std::size_t cach
     ASSERT_EQ(abacus_load_check(load, &delaunay, &mesh.error), ABACUS_OK) << mesh.error.message;
     EXPECT_EQ(delaunay, ABACUS_WEAKLY_DELAUNAY);
     expect_edges(load, edges);
-    ASSERT_EQ(abacus_load_write(load, &mesh.header, &mesh.error), ABACUS_OK);
+    ASSERT_EQ(abacus_load_write(load, 0, &mesh.header, &mesh.error), ABACUS_OK);
     EXPECT_EQ(mesh.header.facts.standing, ABACUS_DELAUNAY);
     abacus_segments *ties = open_segments(mesh, {});
     std::uint64_t count = 0;

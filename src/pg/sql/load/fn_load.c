@@ -4,7 +4,7 @@
  * The vertices are read first, then the simplices. The core sorts and checks both within
  * maintenance_work_mem, beyond that in temporary files, and writes the pages. If the simplices are
  * not Abacus' own Delaunay triangulation, it triangulates the vertices instead if the caller
- * wishes. With lines, the triangulation may be one that is Delaunay but for their edges. Then these
+ * wishes. Labels and markers then stay with what is in both, as in any change. With lines, the triangulation may be one that is Delaunay but for their edges. Then these
  * become fixed, and ties between cocircular vertices are flipped.
  */
 #include "postgres.h"
@@ -19,6 +19,7 @@
 #include "pg/mesh/change.h"
 #include "pg/mesh/new_mesh.h"
 #include "pg/mesh/shape.h"
+#include "pg/sql/load/retriangulate.h"
 
 SQL_FUNCTION(abacus_sql_load);
 
@@ -113,6 +114,7 @@ typedef struct Loading
 	int			labels;
 	bool		reorient;
 	bool		split_nodes;
+	bool		inherit;
 } Loading;
 
 /* Prepares an optional query; returns whether it is there. */
@@ -129,16 +131,17 @@ static void
 prepare(Loading *loading, FunctionCallInfo fcinfo)
 {
 	if (PG_ARGISNULL(0) || PG_ARGISNULL(1) || PG_ARGISNULL(2) || PG_ARGISNULL(6) || PG_ARGISNULL(7) ||
-		PG_ARGISNULL(10))
+		PG_ARGISNULL(10) || PG_ARGISNULL(12))
 		ereport(ERROR,
 				(errcode(ERRCODE_NULL_VALUE_NOT_ALLOWED),
-				 errmsg("mesh, vertices, simplices, reorient, retriangulate and split_nodes must not be NULL")));
+				 errmsg("mesh, vertices, simplices, reorient, retriangulate, split_nodes and inherit must not be NULL")));
 	source_prepare(&loading->vertices, text_to_cstring(PG_GETARG_TEXT_PP(1)));
 	source_prepare(&loading->simplices, text_to_cstring(PG_GETARG_TEXT_PP(2)));
 	loading->has_facets = prepare_optional(&loading->facets, fcinfo, 9);
 	loading->has_lines = prepare_optional(&loading->lines, fcinfo, 11);
 	loading->reorient = PG_GETARG_BOOL(6);
 	loading->split_nodes = PG_GETARG_BOOL(10);
+	loading->inherit = PG_GETARG_BOOL(12);
 }
 
 /* Ends the queries, the last one first. */
@@ -201,17 +204,6 @@ tell_unchangeable(abacus_delaunay delaunay, const Loading *loading)
 					 "which can be changed.", loading->has_lines ? " and lines" : "")));
 }
 
-/* A triangulation that is not Abacus' own, and is triangulated anew. */
-static void
-tell_retriangulated(abacus_delaunay delaunay, const Loading *loading)
-{
-	ereport(NOTICE,
-			(errmsg("the vertices have been triangulated anew"),
-			 errdetail("About the triangulation that was given: %s", abacus_delaunay_reason(delaunay)),
-			 loading->labels > 0 ? errhint("The simplices are new: their labels are NULL.") :
-			 loading->has_facets ? errhint("The facets are new: they have no markers.") : 0));
-}
-
 /* Edges between vertices on one circle that have been flipped. */
 static void
 tell_ties(uint64 ties, const Loading *loading)
@@ -227,24 +219,7 @@ tell_ties(uint64 ties, const Loading *loading)
 			 errhint("Give edges that must stay as lines.")));
 }
 
-/* ---- Abacus' own triangulation ------------------------------------------------------------ */
-
-/* Triangulates the loaded vertices. */
-static void
-triangulate_vertices(Change *change)
-{
-	Host	   *host = change->writer.host;
-	abacus_header *header = change->writer.header;
-
-	/* vertices at one place are now repeated points, as in any mesh */
-	header->facts.columns.apart = abacus_are_apart(header->facts.form.dimension,
-												   header->facts.columns.attributes);
-	change_open_stage(change, &header->facts);
-	host_run(host, abacus_load_stage, change->load, change->stage);
-	abacus_load_close(change->load);
-	change->load = NULL;
-	change_insert(change);
-}
+/* ---- Writing ------------------------------------------------------------------------------ */
 
 /*
  * Writes a triangulation that is Abacus' own, but for ties; returns how many ties there were.
@@ -257,7 +232,7 @@ write_own(Change *change, NamedRows *edges)
 	abacus_columns *columns = &change->writer.header->facts.columns;
 	uint64		ties;
 
-	host_run(change->writer.host, abacus_load_write, change->load, change->writer.header);
+	host_run(change->writer.host, abacus_load_write, change->load, 0, change->writer.header);
 	if (edges == NULL)
 		return 0;
 	loaded_lines_add(change, edges);
@@ -270,8 +245,15 @@ write_own(Change *change, NamedRows *edges)
 
 /* Reads the queries into the mesh, which is empty, and says what has become of them. */
 static void
-load(Change *change, Loading *loading, bool retriangulate)
+load(Change *change, Loading *loading, bool retriangulates, const char *facets)
 {
+	Retriangulation anew = {
+		.labels = loading->labels > 0,
+		.markers = loading->has_facets,
+		.inherit = loading->inherit,
+		.facets = facets
+	};
+
 	abacus_delaunay delaunay = read_triangulation(change, loading);
 	NamedRows  *edges = loading->has_lines ? loaded_lines_take(change) : NULL;
 
@@ -280,24 +262,21 @@ load(Change *change, Loading *loading, bool retriangulate)
 		tell_ties(write_own(change, edges), loading);
 		return;
 	}
-	if (retriangulate)
+	if (retriangulates)
 	{
-		triangulate_vertices(change);
-		if (edges != NULL)
-			loaded_lines_add(change, edges);
-		tell_retriangulated(delaunay, loading);
+		retriangulate(change, &anew, edges, delaunay);
 		return;
 	}
 	if (edges != NULL)
 		named_rows_free(edges);
-	host_run(change->writer.host, abacus_load_write, change->load, change->writer.header);
+	host_run(change->writer.host, abacus_load_write, change->load, 0, change->writer.header);
 	tell_unchangeable(delaunay, loading);
 }
 
 /*
  * abacus_load(mesh text, vertices text, simplices text, attributes text[],
  * lower float8[], upper float8[], reorient boolean, retriangulate boolean, labels text[], facets text,
- * split_nodes boolean, lines text)
+ * split_nodes boolean, lines text, inherit boolean)
  *     -> bigint
  */
 Datum
@@ -337,7 +316,8 @@ abacus_sql_load(PG_FUNCTION_ARGS)
 	/* attributes that are apart are found by their places only */
 	if (loading.split_nodes)
 		change->writer.header->facts.columns.apart = 0;
-	load(change, &loading, PG_GETARG_BOOL(7));
+	load(change, &loading, PG_GETARG_BOOL(7),
+		 quote_qualified_identifier(get_namespace_name(get_func_namespace(fcinfo->flinfo->fn_oid)), "abacus_facets"));
 	loaded = change->writer.header->facts.census.simplices;
 	change_end(change);
 	finish(&loading);
