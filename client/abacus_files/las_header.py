@@ -58,8 +58,6 @@ class Header:
         self.count = count
         if self.minor == 4 and (count == 0 or self.format >= 6):
             self.count, = struct.unpack_from("<Q", head, 247)
-        if self.count == 0:
-            raise Failed("has no points")
         if not self.compressed and self.begin + self.count * self.length > self.size:
             there = max(self.size - self.begin, 0) // self.length
             raise Failed(f"byte {self.size}: the file ends after {there} of {self.count} points")

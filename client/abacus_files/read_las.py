@@ -33,12 +33,12 @@ class Reader:
         self.records = Records(self.header)
         self.check()
         self.axes = [Axis(scale, offset) for scale, offset in zip(self.header.scale, self.header.offset)]
-        self.notes = []
+        self.notes = [] if self.header.count else ["has no points"]
         if not all(axis.exact for axis in self.axes[:2]):
             self.notes.append(f"its scale ({', '.join(map(repr, self.header.scale[:2]))}) is not a short decimal, so coordinates are rounded, and a place "
                               "that another file has, too, may differ in the last digit")
         self.srid = self.find_srid()
-        self.chunks = self.find_chunks()
+        self.chunks = self.find_chunks() if self.header.count else []
         self.total = sum(count for _, _, count in self.chunks)
         self.withheld = 0
 

@@ -1,5 +1,7 @@
 """Points of files into meshes by abacus-import: lidar, ASCII grids and GeoTIFF, which GDAL reads or writes, too; tables that a mesh follows; what is refused
 leaves nothing behind."""
+import re
+import shlex
 import signal
 import subprocess
 import time
@@ -82,6 +84,26 @@ class Points(abacus.InFolder):
         self.assertEqual(self.facts(), ["0", "{classification,z,gps_time,blue}"])
         self.assertEqual(self.vertices(), [[round(of["X"] / 100 + shift, 3), of["Y"] / 100, of["classification"], of["Z"] / 100, of["gps_time"], of["colours"][2]]
                                            for shift in (0, 200.005) for of in kept])
+
+    def test_page(self):
+        """The commands of the manual run, in a folder with such files."""
+        lidar_test.install()
+        self.file("survey.laz", (lidar_test.LAZ / "format_7.laz").read_bytes())
+        self.file("tile_1.laz", (lidar_test.LAZ / "format_1.laz").read_bytes())
+        self.file("tile_2.laz", (lidar_test.LAZ / "format_3.laz").read_bytes())
+        self.file("area.copc.laz", lidar_test.copc(las_files.nodes()))
+        self.grid("heights.asc", self.heights())
+        data, _ = self.tiff("heights.tif", numpy.stack([self.heights()] * 2))
+        del data
+        page = (abacus.REPOSITORY / "docs/files.md").read_text()
+        commands = re.search(r"## Points of lidar and rasters\n\n```sh\n(.*?)```", page, re.S)[1].splitlines()
+        self.assertEqual(len(commands), 5)
+        for command in commands:
+            _, _, _, *arguments = shlex.split(command.replace("450000 4649000 450100 4649100", "0 0 50 50"))
+            mesh = next(word for word in arguments if "." not in word)
+            abacus.psql(f"DROP TABLE IF EXISTS {mesh}, {mesh}_points CASCADE")
+            done = run(*arguments, cwd=self.at)
+            self.assertEqual((done.returncode, bool(re.fullmatch(mesh + r": [1-9]\d* simplices\n", done.stdout))), (0, True), done.stdout + done.stderr)
 
     def test_table(self):
         """The mesh follows a table of the points, which takes more of them."""
