@@ -16,7 +16,7 @@ def text(data):
 
 
 class Header:
-    """`format` and `length` of a record, `count` of points, `begin`: the byte of the first one, `scale` and `offset` of each axis, `compressed`, `wkt`,
+    """`format` and `length` of a record, `count` of points, `begin`: the byte of the first one, `scale`, `offset` and `bounds` (least, greatest) of each axis, `compressed`, `wkt`,
     `records`: {(user, number): (byte, length)}, `size` of the file."""
 
     def __init__(self, file):
@@ -36,6 +36,8 @@ class Header:
         self.wkt = bool(head[6] & WKT)
         self.take_format(format)
         self.scale, self.offset = struct.unpack_from("<3d", head, 131), struct.unpack_from("<3d", head, 155)
+        bounds = struct.unpack_from("<6d", head, 179)
+        self.bounds = list(zip(bounds[1::2], bounds[::2]))
         self.take_count(head, count)
         if not size <= self.begin <= self.size:
             raise Failed(f"byte 96: its points begin at byte {self.begin}, but the header ends at {size} and the file at {self.size}")

@@ -40,7 +40,8 @@ class Reader:
         self.srid = self.find_srid()
         self.chunks = self.find_chunks() if self.header.count else []
         self.total = sum(count for _, _, count in self.chunks)
-        self.withheld = 0
+        self.bounds = self.find_bounds()
+        self.withheld = self.outside = 0
 
     def check(self):
         for axis, scale, offset in zip("xyz", self.header.scale, self.header.offset):
@@ -49,6 +50,15 @@ class Reader:
         missing = [name for name in self.names if name not in self.records.names]
         if missing:
             raise Failed(f"points of format {self.header.format} have no {missing[0]}; they have {', '.join(self.records.names)}")
+
+    def find_bounds(self):
+        """[(field, least, greatest)]: the whole numbers that the header says are in a field, to a step; those of an axis of which it says nothing are left out."""
+        found = []
+        for field, scale, offset, bounds in zip("XYZ", self.header.scale, self.header.offset, self.header.bounds):
+            ends = sorted((end - offset) / scale for end in bounds)
+            if bounds[0] <= bounds[1] and any(bounds) and numpy.isfinite(ends).all():
+                found.append((field, ends[0] - 1, ends[1] + 1))
+        return found
 
     def find_srid(self):
         header = self.header
@@ -91,6 +101,10 @@ class Reader:
         for data in self.data(size):
             found = numpy.frombuffer(data, self.records.dtype)
             read, kept = len(found), ~self.records.withheld(found)
+            outside = numpy.zeros(read, bool)
+            for field, least, greatest in self.bounds:
+                outside |= (found[field] < least) | (found[field] > greatest)
+            self.outside += int(outside.sum())
             self.withheld += read - int(kept.sum())
             if self.wanted["classes"]:
                 kept &= numpy.isin(self.records.classes(found), self.wanted["classes"])
@@ -101,5 +115,7 @@ class Reader:
                 kept = (x >= x1) & (x <= x2) & (y >= y1) & (y <= y2)
                 found, x, y = found[kept], x[kept], y[kept]
             yield read, x, y, [self.axes[2].values(found["Z"]) if name == "z" else self.records.values(name, found) for name in self.names]
+        if self.outside:
+            self.notes.append(f"{self.outside} points lie outside of the bounds that its header says; the file may be damaged")
         if self.withheld:
             self.notes.append(f"{self.withheld} points are marked as withheld, and left out")

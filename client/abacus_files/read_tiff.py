@@ -1,5 +1,7 @@
 """GeoTIFF, by GDAL: cells of one band."""
 
+import numpy
+
 from . import cells
 from .epsg import unknown
 from .psql import Failed
@@ -77,6 +79,7 @@ class Reader:
         for row in range(self.height):
             for column in range(0, self.width, size):
                 count = min(size, self.width - column)
-                values = self.band.ReadAsArray(column, row, count, 1)[0].astype(float)
+                with numpy.errstate(invalid="ignore"):
+                    values = self.band.ReadAsArray(column, row, count, 1)[0].astype(float)
                 valid = mask.ReadAsArray(column, row, count, 1)[0] != 0
                 yield count, self.cells.row(values * (1 if scale is None else scale) + (offset or 0), valid, row, column)

@@ -50,8 +50,8 @@ def variable_record(user, number, data, long=False):
 
 
 def las(format, minor=None, count=COUNT, extra=0, scale=(.01, .01, .01), offset=(0, 0, 0), records=(), wkt=False, points=None, compressed=False, body=None,
-        long_records=(0, 0)):
-    """The bytes of a file. `points`: other ones than those of the formula; `body`: in place of their records."""
+        long_records=(0, 0), bounds=(0,) * 6):
+    """The bytes of a file. `points`: other ones than those of the formula; `body`: in place of their records. `bounds`: greatest and least x, y, z."""
     minor = (4 if format >= 6 else 3 if format >= 4 else 2) if minor is None else minor
     points = [point(n, format) for n in range(count)] if points is None else points
     body = b"".join(record(of, format, extra) for of in points) if body is None else body
@@ -60,7 +60,7 @@ def las(format, minor=None, count=COUNT, extra=0, scale=(.01, .01, .01), offset=
     behind = b"".join(variable_record(*of) for of in records)
     legacy = len(points) if minor < 4 or format < 6 else 0
     struct.pack_into("<HIIBHI", head, 94, len(head), len(head) + len(behind), len(records), format | 0x80 * compressed, len(record(point(0, format), format, extra)), legacy)
-    struct.pack_into("<6d", head, 131, *scale, *offset)
+    struct.pack_into("<12d", head, 131, *scale, *offset, *bounds)
     if minor == 4:
         struct.pack_into("<QIQ", head, 235, *long_records, len(points))
     return bytes(head) + behind + body

@@ -206,6 +206,15 @@ class Lidar(abacus.InFolder):
         with self.assertRaisesRegex(Failed, said, msg=said):
             columns_of(self.file(name, data), names)
 
+    def test_bounds(self):
+        """Points that are not where the header says are counted, whatever is left out of the rest."""
+        points = [las_files.point(n, 1) for n in range(las_files.COUNT)]
+        exact = [end([of[axis] for of in points]) / 100 for axis in "XYZ" for end in (max, min)]
+        for bounds, count in ((exact, 0), ([exact[0], -50.5, *exact[2:]], sum(of["X"] < -5051 for of in points)), ([*exact[:4], 201, exact[5]], sum(of["Z"] > 20101 for of in points))):
+            reader, _ = columns_of(self.file("b.las", las(1, bounds=bounds)), ["z"], classes=[2])
+            self.assertEqual([note for note in reader.notes if "outside" in note], [f"{count} points lie outside of the bounds that its header says; the file may be damaged"] * (count > 0))
+        self.assertGreater(count, 9)
+
     def test_empty(self):
         """A tile without points is no error."""
         for path in self.file("e.las", las(1, points=[])), self.file("e.laz", las(1, points=[], compressed=True)):
