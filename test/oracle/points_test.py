@@ -4,8 +4,10 @@ import re
 import shlex
 import signal
 import subprocess
+import sys
 import time
 import unittest
+import warnings
 
 import numpy
 from osgeo import gdal, osr
@@ -14,6 +16,10 @@ import abacus
 import las_files
 import lidar_test
 from las_files import las
+
+sys.path.insert(0, str(abacus.REPOSITORY / "client"))
+from abacus_files import read_asc  # noqa: E402
+from abacus_files.psql import Failed  # noqa: E402
 
 IMPORT = abacus.REPOSITORY / "client/abacus-import"
 LEAST = -1.7976931348623157e308
@@ -31,6 +37,11 @@ def system(code):
 
 
 class Points(abacus.InFolder):
+    @classmethod
+    def setUpClass(cls):
+        super().setUpClass()
+        warnings.simplefilter("ignore", ResourceWarning)  # a reader that fails ends with its process, and closes nothing
+
     def file(self, name, data):
         path = self.at / name
         path.write_bytes(data if isinstance(data, bytes) else data.encode())
@@ -135,6 +146,11 @@ class Points(abacus.InFolder):
                 ("several are for points", self.at / "a.ply", self.at / "b.ply", mesh), ("--spacing and --band are for points", self.at / "a.ply", mesh, "--class", "2"),
                 ("not loaded", good, mesh, "--table", "pg_catalog.pg_class")):
             self.refused(said, *arguments)
+        self.loads(good, mesh)
+        done = run(good, mesh)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn(f'mesh "{mesh}" already exists', done.stderr)
+        self.assertEqual(len(self.vertices()), len(self.kept(1)))
         self.assertEqual(abacus.rows("SELECT count(*) FROM pg_stat_activity WHERE state LIKE 'idle in transaction%'"), [["0"]])
 
     def grid(self, name, values, **header):
@@ -202,7 +218,10 @@ class Points(abacus.InFolder):
                                ("xllcorner 1000.5", "xllcorner 1\nxllcenter 2", "line 8: .*xllcorner or xllcenter"), ("xllcorner 1000.5", "xllcorner inf", "xllcorner is not finite"),
                                ("5.0", "5,0", "line 8: 5,0 is not a number"), (" 11.0", "", "line 10: the file ends after 11 of 12"), (" 11.0", " 11.0 12.0", "line 9: the file has more than 12 cells"),
                                ("11.0\n", "11.0\n\n7", "line 11: the file has more than 12 cells"), ("cellsize 0.1", "cellsize 0.1\ncellsize 0.2", "line 6: cellsize"), (good, "", "line 1: .*ncols")):
-            self.refused("bad.asc: .*" + said, self.file("bad.asc", good.replace(old, new, 1)), self.mesh)
+            path = self.file("bad.asc", good.replace(old, new, 1))
+            with self.assertRaisesRegex(Failed, said):
+                list(read_asc.Reader(str(path), ["z"], lidar_test.wanted()).blocks(5))
+        self.refused("bad.asc: line 1: the header does not say ncols", path, self.mesh)
 
     def tiff(self, name, values, kind=gdal.GDT_Float64, no_data=None, place=(1000.5, .1, 0, -17.7, 0, -.1), code=25832, **options):
         bands = values if values.ndim == 3 else values[None]
@@ -312,7 +331,7 @@ class Points(abacus.InFolder):
 
     def test_ended(self):
         """A client that is ended leaves no mesh, no table and no session, even if it is killed."""
-        path = self.many("ended.las", 2_000_000)
+        path = self.many("ended.las", 1_500_000)
         for number, status in (signal.SIGTERM, 143), (signal.SIGINT, 130), (signal.SIGKILL, -9):
             client = subprocess.Popen(["/usr/bin/python3", str(IMPORT), str(path), self.mesh, "--table", f"{self.mesh}_table"], stderr=subprocess.PIPE, text=True,
                                       preexec_fn=None if number == signal.SIGKILL else lambda number=number: signal.signal(number, signal.SIG_DFL))
