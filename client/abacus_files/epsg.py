@@ -1,9 +1,11 @@
-"""The EPSG code of a coordinate system: of the horizontal part, if it has a vertical one, too."""
+"""The EPSG code of a coordinate system: of the horizontal part, if it has a vertical one, too. GDAL, if it is installed, finds the code of a system that does not
+say it, as in the files of ESRI."""
 import re
 import struct
 
 PROJECTED, GEOGRAPHIC = 3072, 2048  # keys of GeoTIFF
 USER_DEFINED = 32767
+SURE = 90  # of 100: as GDAL has it, all but the name is the same
 TOKEN = re.compile(r'"((?:[^"]|"")*)"|([A-Za-z_]\w*)\s*[\[(]|([\])])|([^\s,\[\]()"]+)')
 SYSTEM = re.compile("(PROJ|GEOG|GEOD|ENG|LOCAL)[A-Z]*(CS|CRS)|GEOGRAPHICCRS|GEODETICCRS|PROJECTEDCRS", re.IGNORECASE)
 WRAPPERS = ("COMPD_CS", "COMPOUNDCRS", "BOUNDCRS", "SOURCECRS")
@@ -54,7 +56,23 @@ def of_wkt(wkt):
         if node is None:
             return 0, ""
         whole = whole or code_of(node)
-    return code_of(node) or whole, next((text for text in node[1] if isinstance(text, str)), "")
+    return code_of(node) or whole or matching(wkt), next((text for text in node[1] if isinstance(text, str)), "")
+
+
+def matching(wkt):
+    """That of the one system that GDAL takes for the same; 0 if there is none, or several."""
+    try:
+        from osgeo import osr
+    except ImportError:
+        return 0
+    osr.UseExceptions()
+    try:
+        system = osr.SpatialReference()
+        system.ImportFromWkt(wkt)
+        found = {match.GetAuthorityCode(None) for match, confidence in system.FindMatches() if confidence >= SURE and match.GetAuthorityName(None) == "EPSG"}
+    except RuntimeError:  # it is not one that GDAL knows
+        return 0
+    return int(found.pop()) if len(found) == 1 else 0
 
 
 def unknown(name):

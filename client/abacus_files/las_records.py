@@ -1,8 +1,6 @@
 """The records of LAS points: their fields in each of the point formats 0 to 10, and the numbers in them."""
 import numpy
 
-from .las_header import LENGTHS
-
 FIRST_LONG = 6  # from this format on, records have more bits for returns and classes
 PLACE = [("X", "<i4"), ("Y", "<i4"), ("Z", "<i4"), ("intensity", "<u2"), ("returns", "u1")]
 SHORT = [*PLACE, ("flags", "u1"), ("angle", "i1"), ("user_data", "u1"), ("point_source_id", "<u2")]
@@ -27,7 +25,6 @@ class Records:
         fields = FIELDS[header.format]
         names = [name for name, _ in fields]
         places = numpy.cumsum([0, *(numpy.dtype(kind).itemsize for _, kind in fields)])[:-1].tolist()
-        assert places[-1] < LENGTHS[header.format]
         self.dtype = numpy.dtype({"names": names, "formats": [kind for _, kind in fields], "offsets": places, "itemsize": header.length})
         self.names = [name for name in TYPES if name in (*names, "z", "return_number", "number_of_returns", "classification", "scan_angle")]
 

@@ -3,7 +3,7 @@
 import numpy
 
 from . import cells
-from .epsg import unknown
+from .epsg import matching, unknown
 from .psql import Failed
 
 suffixes = (".tif", ".tiff")
@@ -64,10 +64,10 @@ class Reader:
             self.notes.append("does not say its coordinate system: the mesh has no SRID unless abacus_set_srid gives it one")
             return 0
         part = "PROJCS" if system.IsProjected() else "GEOGCS"
-        code = system.GetAuthorityCode(part) if system.GetAuthorityName(part) == "EPSG" else None
-        if code is None:
+        code = int(system.GetAuthorityCode(part)) if system.GetAuthorityName(part) == "EPSG" else matching(system.ExportToWkt())
+        if code == 0:
             self.notes.append(unknown(system.GetName()))
-        return int(code or 0)
+        return code
 
     def blocks(self, size):
         yield from cells.joined(self.parts(size), size)

@@ -17,7 +17,7 @@ import las_files
 from las_files import las
 
 sys.path.insert(0, str(abacus.REPOSITORY / "client"))
-from abacus_files import apart_points, classes, laz_chunks, read_las  # noqa: E402
+from abacus_files import apart_points, classes, epsg, laz_chunks, read_las  # noqa: E402
 from abacus_files.decimals import Axis  # noqa: E402
 from abacus_files.las_header import Header  # noqa: E402
 from abacus_files.psql import Failed  # noqa: E402
@@ -165,6 +165,10 @@ class Lidar(abacus.InFolder):
                     reader, _ = columns_of(self.file("s.las", las(6, points=[las_files.point(1, 6)], records=[(PROJECTION, 2112, text)], wkt=True)), ["z"])
                     # in the second version GDAL writes the code of the whole alone
                     self.assertEqual((reader.srid, reader.notes), (code if form != "WKT1_GDAL" else horizontal, []))
+        for code in 25832, 31370, 27700, 4326, 2227:  # without a code
+            system = osr.SpatialReference()
+            system.ImportFromEPSG(code)
+            self.assertEqual(epsg.of_wkt(system.ExportToWkt(["FORMAT=WKT1_ESRI"]))[0], code)
         own = osr.SpatialReference()
         own.SetTM(48, 7, 1, 1000, 2000)
         own.SetProjCS("site \"7\"")
