@@ -41,6 +41,7 @@ test=(
     gdal-bin                        # reads tiles; gdal_grid, for comparison
     libp4est-dev libopenmpi-dev     # p4est, for comparing octrees
     python3-meshio python3-gmsh python3-h5py   # read and write the files of meshes
+    python3-gdal                    # GeoTIFF
     chromium                        # shows the viewer's page in headless mode
     mmdebstrap                      # a Debian with another version of PostgreSQL
 )

@@ -2,6 +2,7 @@
 
 The process sends a line of JSON and the arrays that it names, as numpy writes them.
 """
+import contextlib
 import json
 import os
 import pathlib
@@ -72,21 +73,27 @@ def receive(line, source):
     return grid
 
 
-def main(path, options):
-    """In the process apart: reads the file, and sends what it has found."""
-    out = os.fdopen(os.dup(1), "wb")
-    os.dup2(2, 1)  # what a library prints is no answer
+def limit(path):
+    """Ends this process where reading the file takes too long, or too much memory; returns how much it may take. Processes that it starts may
+    have other memory."""
     seconds, memory = limits(size_of(path))
-    for limit, value in (resource.RLIMIT_CPU, seconds), (resource.RLIMIT_AS, memory), (resource.RLIMIT_CORE, 0):
+    for kind, value in (resource.RLIMIT_CPU, seconds), (resource.RLIMIT_AS, memory), (resource.RLIMIT_CORE, 0):
         try:
-            resource.setrlimit(limit, (value, value))
+            resource.setrlimit(kind, (value, resource.getrlimit(kind)[1] if kind == resource.RLIMIT_AS else value))
         except (ValueError, OSError):  # a lower one is set, or the system has none
             pass
-    from . import read
+    return memory
+
+
+def main(path, work):
+    """In the process apart: work(out) reads the file, and sends what it has found. What goes wrong is the last line that is sent."""
+    out = os.fdopen(os.dup(1), "wb")
+    os.dup2(2, 1)  # what a library prints is no answer
+    memory = limit(path)
     try:
-        grid = read.read_here(path, **options)
-        grid.check()
-        send(grid, out)
+        work(out)
+    except BrokenPipeError:  # nobody reads on
+        os._exit(1)
     except Failed as error:
         said = str(error)
     except MemoryError:
@@ -102,6 +109,13 @@ def main(path, options):
     out.close()
 
 
+def send_grid(path, options, out):
+    from . import read
+    grid = read.read_here(path, **options)
+    grid.check()
+    send(grid, out)
+
+
 def died(status, size):
     seconds, memory = limits(size)
     if status in (-signal.SIGXCPU, -signal.SIGKILL):
@@ -109,24 +123,34 @@ def died(status, size):
     return f"cannot be read: its reader ended with status {status}"
 
 
-def read(path, **options):
-    """The grid of a file."""
+@contextlib.contextmanager
+def process(path, work, *options):
+    """One that calls a function of this package, module.name, with the path, options and its output."""
     if not os.path.isfile(path):
         raise Failed("is not a file" if os.path.exists(path) else "No such file")
-    size = size_of(path)
-    code = f"import sys; sys.path[:] = {sys.path!r}; from abacus_files import apart; apart.main(sys.argv[1], {options!r})"
+    module, name = work.split(".")
+    code = (f"import sys; sys.path[:] = {sys.path!r}; from abacus_files import apart, {module}; "
+            f"apart.main(sys.argv[1], lambda out: {module}.{name}(sys.argv[1], *{options!r}, out))")
     reader = subprocess.Popen([sys.executable, "-c", code, path], stdout=subprocess.PIPE, env=dict(os.environ, OPENBLAS_NUM_THREADS="1"),
                               preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_IGN))  # Ctrl-C ends it by way of this process
     try:
-        line = reader.stdout.readline()
-        grid = receive(line, reader.stdout) if line.endswith(b"\n") else None
-    except ValueError:  # it died while it sent
-        grid = None
+        yield reader
     finally:
         reader.stdout.close()
         if sys.exc_info()[0]:
             reader.kill()
         reader.wait()
+
+
+def read(path, **options):
+    """The grid of a file."""
+    grid = None
+    with process(path, "apart.send_grid", options) as reader:
+        try:
+            line = reader.stdout.readline()
+            grid = receive(line, reader.stdout) if line.endswith(b"\n") else None
+        except ValueError:  # it died while it sent
+            pass
     if grid is None or reader.returncode != 0:
-        raise Failed(died(reader.returncode, size))
+        raise Failed(died(reader.returncode, size_of(path)))
     return grid

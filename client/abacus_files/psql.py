@@ -31,7 +31,7 @@ def _end_with_parent():
     ctypes.CDLL(None).prctl(PR_SET_PDEATHSIG, signal.SIGINT)
 
 
-def _widen(*pipes):
+def widen(*pipes):
     """Gives pipes more room, where the system can: with 64 kB the programs take turns so often that this takes most of a stream's processor time."""
     for pipe in pipes:
         try:
@@ -47,7 +47,7 @@ def start(database, variables=(), options="", **pipes):
     try:
         started = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, env=environment,
                                    preexec_fn=_end_with_parent if sys.platform == "linux" else None, **pipes)
-        _widen(started.stdin, started.stdout)
+        widen(started.stdin, started.stdout)
         return started
     except FileNotFoundError as error:
         raise Failed("psql is not installed, or not in PATH (postgresql-client)") from error
