@@ -188,6 +188,20 @@ def window_share(figure):
     return measured
 
 
+def within(question, part):
+    """Within a region or a polygon of a tenth of the area, to all of a mesh of 10 M points."""
+    def measured(results, figure="wall"):
+        return ratio(*(results.median(figure, what="within", points=10**7, question=question, within=found) for found in (part, "all")))
+    return measured
+
+
+def with_lines(way):
+    """From three tables to contours, to the same without lines and regions."""
+    def measured(results, figure="wall"):
+        return ratio(*(results.median(figure, what="terrain", points=500000, way=found) for found in (way, "points alone")))
+    return measured
+
+
 WANTED = [
     Timed("2D, 1 M uniform: table to committed mesh ÷ CGAL in core", 1.0, True,
           times("abacus", "cgal", 2, "uniform", 10**6)),
@@ -255,6 +269,11 @@ WANTED = [
     Wanted("3D, 500,000 points: one point inserted, a transaction, ms", 3, True, milliseconds("insert", 3)),
     Wanted("… one deleted, ms", 3, True, milliseconds("delete", 3)),
     Timed("`abacus_isosurface`, quake set of 1 M ÷ VTK's contour filter, grid in memory", 1, True, surface),
+    *(Timed(f"{what} within a {part} of a tenth of the area, mesh of 10 M ÷ of all", 0.15, True, within(question, part))
+      for question, what in (("contours", "`abacus_contours`"), ("volume", "`abacus_volume`")) for part in ("region", "polygon")),
+    Timed("Terrain of 500,000 points, 20,000 breaklines, 300 regions: tables to contours, lines in the call ÷ points alone", 2, True,
+          with_lines("points and lines in one call")),
+    Timed("… points first, then lines ÷ points alone", 2, True, with_lines("points, then lines")),
     Wanted("2D, 1 M points: size after half of them were replaced and VACUUM ÷ fresh", 1.5, True, space(2)),
     Wanted("3D, 500,000 points: … ÷ fresh", 1.5, True, space(3)),
 ]

@@ -13,9 +13,11 @@ from lines import Lines
 from location import location
 from octrees import Octrees
 from rasters import Raster
+from regions import Regions
 from rows import Rows
 from shared_reading import SharedLoading, SharedReading
 from surfaces import Surfaces
+from terrain import Terrain
 
 
 def contests(*contests):
@@ -53,6 +55,9 @@ PARTS = [
                 ("cgal", "abacus:default", "abacus:8"), FEWER))),
     Part("lines", "shorelines, borders and rivers with all their segments as fixed edges, 8 MB of cache", 25, Lines(
         {"full": ("f", None), "quick": ("h", 1000000), "smoke": ("h", 20000)}, FEWER).measure),
+    Part("regions", "within a region and a polygon; a terrain with breaklines and regions, from tables to contours", 8, contests(
+        Regions({"full": (10000000, 1000000), "quick": (1000000, 100000), "smoke": (20000, 2000)}),
+        Terrain({"full": (500000, 20000, 300), "quick": (50000, 2000, 30), "smoke": (5000, 200, 4)}, FEWER))),
     Part("3d", "uniform points in space, all engines", 6, contests(
         Contest(3, "uniform", {"full": 1000000, "quick": 100000, "smoke": 5000},
                 ("cgal", "abacus:default", "abacus:16", "abacus:largest", THREADS[-1], PARALLEL[-1], "tetgen", "qhull")))),

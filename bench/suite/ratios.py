@@ -43,6 +43,10 @@ def octree(dimension, step):
     return measured
 
 
+def area_within(results, figure):
+    return ratio(*(results.median(figure, what="within", points=10**6, question="area", engine=engine) for engine in ("abacus", "postgis")))
+
+
 RATIOS = [
     *built("triangulation of 1 M uniform points", 2, "uniform", 10**6),
     *built("triangulation of 10 M uniform points", 2, "uniform", 10**7),
@@ -63,6 +67,7 @@ RATIOS = [
     Ratio("raster of 4096² pixels, 1 M points", "gdal_grid, which triangulates first", "gdal",
           asked("raster of 4096²", "raster of 4096²", other_engine="gdal")),
     Ratio("isosurface in an earthquake model", "VTK's contour filter, grid in memory", "vtk", surface),
+    Ratio("area of a mesh of 1 M points within a polygon of 64 corners", "PostGIS, triangles under GiST cut by `ST_Intersection`", "postgis", area_within),
     Ratio("half of 1 M points in the plane deleted, a point", "CGAL's `remove`, in random order", "cgal", deleted(2, 1000000, 1)),
     Ratio("half of 1 M points in the plane deleted, a point", "CGAL's `remove`, along the curve, vertices known", "cgal", deleted(2, 1000000, 0)),
     Ratio("half of 500,000 points in space deleted, a point", "CGAL's `remove` from 200,000, in random order", "cgal",

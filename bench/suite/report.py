@@ -3,6 +3,7 @@ import document
 import habits
 import plots
 import ratios
+import region_tables
 import tables
 from document import Document, number, points, size, spread, table
 from heads import head
@@ -18,6 +19,7 @@ SETS = {"uniform": "uniform", "curves": "clusters and curves", "grid": "grid",
 TABLES = {"location": (tables.location, ("locate",)), "cold": (tables.cold, ("cold",)), "asking": (tables.asking, ("ask",)),
           "surfaces": (tables.surfaces, ("surface",)), "octrees": (tables.octrees, ("octree",)), "gpu": (tables.gpu, ("gpu",)),
           "lines": (tables.lines, ("lines", "line insert")),
+          "within": (region_tables.within, ("within", "region step")), "terrain": (region_tables.terrain, ("terrain", "region edit")),
           "threads": (tables.threads, ("threads", "shared reading")), "edits": (tables.edits, ("edit",)),
           "cancels": (tables.cancels, ("cancel",)), "core": (tables.core, ("core",)),
           "goose": (habits.goose, ("goose",)), "rows": (habits.rows, ("rows",))}

@@ -15,6 +15,7 @@ import document
 import heads
 import plots
 import ratios
+import region_tables
 import results
 import tables
 from report import Report
@@ -118,6 +119,23 @@ class Verdicts(unittest.TestCase):
         self.assertEqual(verdict(number, of(run("insert many", 2, 1.4), build_)), "**missed**")
         self.assertEqual(verdict(number, of(insert)), "not measured")
         self.assertEqual(verdict(number + 1, of(insert, build_)), "not measured")
+
+    def test_what_is_within_a_region_is_compared_with_all(self):
+        def asked(within, seconds, points=10**7):
+            return {"what": "within", "question": "contours", "within": within, "points": points, "samples": [{"wall": seconds}]}
+        number = next(i for i, wanted in enumerate(acceptance.WANTED) if wanted.what.startswith("`abacus_contours` within a region"))
+        self.assertEqual(verdict(number, of(asked("all", 2.0), asked("region", 0.28))), "held")
+        self.assertEqual(verdict(number, of(asked("all", 2.0), asked("region", 0.32))), "**missed**")
+        self.assertEqual(verdict(number, of(asked("all", 2.0, 10**6), asked("region", 0.28, 10**6))), "not measured")
+        self.assertEqual(verdict(number + 1, of(asked("all", 2.0), asked("polygon", 0.32))), "**missed**")
+
+    def test_a_terrain_with_lines_is_compared_with_its_points(self):
+        def built(way, seconds):
+            return {"what": "terrain", "way": way, "points": 500000, "samples": [{"wall": seconds}]}
+        number = next(i for i, wanted in enumerate(acceptance.WANTED) if wanted.what.startswith("Terrain"))
+        found = of(built("points alone", 1.0), built("points and lines in one call", 1.9), built("points, then lines", 2.1))
+        self.assertEqual(verdict(number, found), "held")
+        self.assertEqual(verdict(number + 1, found), "**missed**")
 
     def test_the_largest_size_after_replacing_decides(self):
         def run(sizes, at_once):
@@ -246,6 +264,31 @@ class Tables(unittest.TestCase):
         self.assertIn("| a point beside lines, median of 20 | 900,000 | 3.00 ms | – | 1.50 | – |", text)
         self.assertIn("| a point without lines, median of 20 | – | 2.00 ms | – | – | – |", text)
 
+    def test_what_is_asked_within_a_region_stands_beside_all(self):
+        def asked(within, seconds, **labels):
+            return {"what": "within", "engine": "abacus", "question": "volume", "within": within, "points": 10**6} | labels | {
+                "samples": [{"wall": seconds, "cpu": seconds / 2}]}
+        step = {"what": "region step", "step": "region of a seed", "points": 10**6, "samples": [{"wall": 2.0, "cpu": 1.0, "memory": 1 << 20}]}
+        text = region_tables.within(of(asked("all", 4.0), asked("region", 1.0), asked("polygon", 8.0, engine="postgis", question="area"), step))
+        self.assertIn("| 1 M points: volume in all | Abacus | 4.00 s | 2.00 s | – | – | 1 |", text)
+        self.assertIn("| 1 M points: volume in the region | Abacus | 1.00 s | 0.500 s | 0.250 | 0.250 | 1 |", text)
+        self.assertIn("| 1 M points: area in the polygon | PostGIS, triangles under GiST | 8.00 s | 4.00 s | – | – | 1 |", text)
+        self.assertIn("\n\n| step |", text)
+        self.assertIn("| 1 M points: region of a seed | 2.00 s | 1.00 s | 1.00 MB | 1 |", text)
+
+    def test_a_terrain_stands_beside_its_points_alone(self):
+        def built(way, seconds, **steps):
+            return {"what": "terrain", "way": way, "points": 9, "samples": [{"wall": seconds, "cpu": seconds, "memory": 1 << 20, **steps}]}
+        def edit(inside, seconds):
+            return {"what": "region edit", "edit": "line", "inside": inside, "points": 9, "transactions": 50, "percentile99": 0.1,
+                    "samples": [{"wall": seconds}]}
+        text = region_tables.terrain(of(built("points alone", 2.0, triangulate=1.5, contours=0.5), edit(True, 0.06), edit(False, 0.03),
+                                        built("points, then lines", 5.0, triangulate=1.5, constrain=2.0, region=1.0, contours=0.5, each=7.0)))
+        self.assertIn("| points alone | 1.50 | – | – | 0.500 | 2.00 | – | – | – | 1.00 MB | 1 |", text)
+        self.assertIn("| points, then lines | 1.50 | 2.00 | 1.00 | 0.500 | 5.00 | 2.50 | 2.50 | 7.00 | 1.00 MB | 1 |", text)
+        self.assertIn("| a line into a region, median of 50 | 60.0 ms | 100 ms | 2.00 |", text)
+        self.assertIn("| a line where there are neither, median of 50 | 30.0 ms | 100 ms | – |", text)
+
     def test_files_have_a_rate(self):
         written = {"what": "ask", "question": "PLY of 8 triangles", "engine": "abacus", "points": 9, "written": True,
                    "samples": [{"wall": 2.0, "cpu": 1.0, "bytes": 10**7}]}
@@ -259,6 +302,8 @@ class Tables(unittest.TestCase):
         self.assertEqual(document.table(("a", "b"), []), "")
         for name in "asking", "threads", "surfaces", "gpu", "location", "lines":
             self.assertEqual(getattr(tables, name)(of()), "")
+        for make in region_tables.within, region_tables.terrain:
+            self.assertEqual(make(of()), "")
 
 
 class Storage(unittest.TestCase):
