@@ -18,6 +18,9 @@ typedef struct abacus_extent
 {
 	double max_edge;   /* simplices without a longer edge; 0 or infinity: any */
 	uint32_t region;   /* those in the region with this number; 0: any */
+	int32_t has_box;   /* 1: all of the region lies in the box from `lower` to `upper` */
+	double lower[2];
+	double upper[2];
 	const abacus_area *area; /* those that have a part in it; lines, areas and values end at its
 							  * border; null: any. It must live as long. */
 } abacus_extent;

@@ -58,13 +58,17 @@ typedef struct abacus_region_fault
 	double end[2];   /* ... where the segment that begins at the place ends */
 } abacus_region_fault;
 
+/* Gets a box around triangles of a region; several may come of one, which lies in all of them together. */
+typedef abacus_host_status (*abacus_region_box_report)(void *context, uint32_t region,
+													   const double *lower, const double *upper);
 /*
- * Puts the triangles of the regions into them. The mesh must have simplices, and the outlines must be
+ * Puts the triangles of the regions into them, and reports boxes around them. The mesh must have simplices, and the outlines must be
  * fixed edges of it. ABACUS_END, and *fault says why, if that is impossible: then the change must be
  * given up. No more parts can be added.
  */
 ABACUS_API abacus_status abacus_build_fill_regions(abacus_build *build, abacus_region_parts *parts,
 												   abacus_header *header,
+												   abacus_region_box_report report, void *context,
 												   abacus_region_fault *fault,
 												   abacus_error *error);
 /* Takes all triangles out of the regions that have these parts. */
@@ -96,6 +100,8 @@ typedef struct abacus_region_size
 	uint64_t triangles;
 	uint64_t edges; /* on its border, which are fixed */
 	double area;    /* the exact sum, rounded once; in square units of the coordinates */
+	double lower[2]; /* of the box of its border */
+	double upper[2];
 } abacus_region_size;
 
 typedef abacus_host_status (*abacus_region_size_report)(void *context,

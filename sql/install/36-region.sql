@@ -1,7 +1,8 @@
 -- Regions, which end at fixed edges.
 
 CREATE TYPE abacus_region_part AS (
-    region text, number integer, part bigint, line bigint, x double precision, y double precision);
+    region text, number integer, part bigint, line bigint, x double precision, y double precision,
+    lower double precision[], upper double precision[]);
 COMMENT ON TYPE abacus_region_part IS 'row of the table of regions of a mesh: an outline or a seed of a region';
 COMMENT ON COLUMN abacus_region_part.region IS 'name of the region';
 COMMENT ON COLUMN abacus_region_part.number IS 'its number, which its triangles have';
@@ -9,6 +10,8 @@ COMMENT ON COLUMN abacus_region_part.part IS 'number of the outline or seed in i
 COMMENT ON COLUMN abacus_region_part.line IS 'line that is an outline; NULL for a seed';
 COMMENT ON COLUMN abacus_region_part.x IS 'where the seed is; NULL for an outline';
 COMMENT ON COLUMN abacus_region_part.y IS 'the same';
+COMMENT ON COLUMN abacus_region_part.lower IS 'least corner of a box around the region';
+COMMENT ON COLUMN abacus_region_part.upper IS 'its greatest corner';
 
 CREATE FUNCTION abacus_region(mesh regclass, query text)
 RETURNS bigint

@@ -51,12 +51,16 @@ abacus_status abacus_region_parts_seed(abacus_region_parts *parts, uint32_t regi
 void abacus_region_parts_close(abacus_region_parts *parts) { abacus::destroy_handle(parts); }
 
 abacus_status abacus_build_fill_regions(abacus_build *build, abacus_region_parts *parts,
-                                        abacus_header *header, abacus_region_fault *fault,
+                                        abacus_header *header, abacus_region_box_report report,
+                                        void *context, abacus_region_fault *fault,
                                         abacus_error *error) {
-    return abacus::run_sound_change(build, header, error,
-                                    [&](auto &opened, abacus_header &changed) {
-                                        return opened.fill_regions(parts->parts, *fault, changed);
-                                    });
+    const auto pass_on = [&](abacus::RegionNumber region, const abacus::Box<2> &box) {
+        abacus::host::require(report(context, region, box.lower.data(), box.upper.data()));
+    };
+    return abacus::run_sound_change(
+        build, header, error, [&](auto &opened, abacus_header &changed) {
+            return opened.fill_regions(parts->parts, pass_on, *fault, changed);
+        });
 }
 
 abacus_status abacus_build_cut_regions(abacus_build *build, abacus_segments *segments,

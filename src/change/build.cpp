@@ -184,8 +184,9 @@ template <int D> void Build<D>::restore(Segments &edges, abacus_header &header) 
 }
 
 template <int D>
-bool Build<D>::fill_regions(RegionParts &parts, abacus_region_fault &fault, abacus_header &header) {
-    return sound_change(header, [&] { return constraining_.fill_regions(parts, fault); });
+bool Build<D>::fill_regions(RegionParts &parts, const Regions::Report &report,
+                            abacus_region_fault &fault, abacus_header &header) {
+    return sound_change(header, [&] { return constraining_.fill_regions(parts, report, fault); });
 }
 
 template <int D> void Build<D>::clear_regions(RegionParts &parts, abacus_header &header) {

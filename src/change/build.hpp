@@ -75,7 +75,8 @@ public:
     /// Makes a mesh Delaunay, but for its fixed edges, of which only these edges may fail the test.
     void restore(Segments &edges, abacus_header &header);
     /// Puts triangles into the regions that have these parts, or says why that is impossible.
-    bool fill_regions(RegionParts &parts, abacus_region_fault &fault, abacus_header &header);
+    bool fill_regions(RegionParts &parts, const Regions::Report &report, abacus_region_fault &fault,
+                      abacus_header &header);
     /// Takes all triangles out of these regions.
     void clear_regions(RegionParts &parts, abacus_header &header);
     /// Makes regions of seeds what they are with new fixed edges, or says why that is impossible.

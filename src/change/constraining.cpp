@@ -99,9 +99,11 @@ template <int D> template <class Change> void Constraining<D>::with_regions(Chan
 }
 
 template <int D>
-bool Constraining<D>::fill_regions(RegionParts &parts, abacus_region_fault &fault) {
+bool Constraining<D>::fill_regions(RegionParts &parts, const Regions::Report &report,
+                                   abacus_region_fault &fault) {
     bool is_sound = true;
-    with_regions([&](auto &mesh) { is_sound = Regions(mesh, parts.memory()).fill(parts, fault); });
+    with_regions(
+        [&](auto &mesh) { is_sound = Regions(mesh, parts.memory()).fill(parts, report, fault); });
     if (is_sound) parts.close();
     return is_sound;
 }

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "change/gathering.hpp"
-#include "constrain/region_parts.hpp"
+#include "constrain/regions.hpp"
 #include "constrain/segments.hpp"
 
 #include <abacus/regions.h>
@@ -24,14 +24,15 @@ public:
     /// Fixes the edges of all segments, of a mesh with simplices; returns how many segments there
     /// were.
     std::uint64_t fix(Segments &segments);
-    /// Frees the edges of all segments over which the host has no line; false, and `fault` says why,
-    /// if that is impossible.
+    /// Frees the edges of all segments over which the host has no line; false, and `fault` says
+    /// why, if that is impossible.
     bool unfix(Segments &segments, abacus_region_fault &fault);
     /// Makes the mesh Delaunay again, but for its fixed edges, from edges that may fail the test.
     std::uint64_t restore(Segments &edges);
     /// Puts triangles into the regions that have these parts; false, and `fault` says why, if that
     /// is impossible.
-    bool fill_regions(RegionParts &parts, abacus_region_fault &fault);
+    bool fill_regions(RegionParts &parts, const Regions::Report &report,
+                      abacus_region_fault &fault);
     /// Takes all triangles out of these regions.
     void clear_regions(RegionParts &parts);
     /// Makes regions of seeds, with these parts, what they are with segments whose edges have been

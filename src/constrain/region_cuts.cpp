@@ -87,7 +87,8 @@ RegionCuts::Found RegionCuts::clear_cut_off() {
 
 bool RegionCuts::renew(RegionParts &parts, abacus_region_fault &fault) {
     regions_.clear(parts);
-    return regions_.fill(parts, fault);
+    return regions_.fill(
+        parts, [](RegionNumber, const Box<2> &) {}, fault); // boxes stay around them
 }
 
 } // namespace abacus

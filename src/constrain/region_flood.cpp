@@ -28,6 +28,7 @@ void RegionFlood::begin(Rule rule, RegionNumber region, TouchingEdges *touching)
     far_.clear();
     pending_.clear();
     page_ = no_block;
+    box_ = {};
 }
 
 void RegionFlood::set(Handle h) {
@@ -47,7 +48,11 @@ bool RegionFlood::look_around(Handle h, abacus_region_fault &fault) {
         return false;
     };
     for (int i = 0; i < 3; ++i) {
-        if (ends_at_fixed() && cache_.is_fixed(make_link(h, i))) continue;
+        if (ends_at_fixed() && cache_.is_fixed(make_link(h, i))) {
+            for (const int corner : {(i + 1) % 3, (i + 2) % 3})
+                box_.extend(cache_.point(cache_.simplex(h).vertex[corner]));
+            continue;
+        }
         const Handle beyond = link_simplex(cache_.cross(h, i));
         const VertexIndex v = cache_.simplex(h).vertex[(i + 1) % 3];
         const RegionNumber there = cache_.region(beyond);

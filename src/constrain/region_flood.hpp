@@ -7,6 +7,7 @@
 
 #include "constrain/touching_edges.hpp"
 #include "delaunay/delaunay.hpp"
+#include "geometry/box.hpp"
 #include "sort/record_spool.hpp"
 
 #include <abacus/regions.h>
@@ -40,6 +41,9 @@ public:
     /// cached may be gone.
     bool run(abacus_region_fault &fault);
 
+    /// Of seeds: the box of the fixed edges met, and so of all that has been taken.
+    const Box<2> &box() const { return box_; }
+
     /// What triangles beyond an outline are marked with while it is flooded.
     static constexpr RegionNumber outside = most_regions;
 
@@ -68,6 +72,7 @@ private:
     Rule rule_ = Rule::seed;
     RegionNumber region_ = no_region;
     TouchingEdges *touching_ = nullptr;
+    Box<2> box_;
     Arena<Handle> near_, far_; // to be looked around: in the page of the last one, and elsewhere
     BlockIndex page_ = no_block;
     using Edge = std::array<std::uint64_t, edge_words>;

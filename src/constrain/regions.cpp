@@ -8,17 +8,17 @@ Regions::Regions(Delaunay<2> &mesh, std::size_t memory)
     : mesh_(mesh), cache_(mesh.cache()), flood_(mesh), memory_(memory / 2),
       touching_(cache_.host(), memory / 4) {}
 
-bool Regions::fill(RegionParts &parts, abacus_region_fault &fault) {
-    if (!fill_outlines(parts, fault)) return false;
+bool Regions::fill(RegionParts &parts, const Report &report, abacus_region_fault &fault) {
+    if (!fill_outlines(parts, report, fault)) return false;
     bool is_sound = true;
     parts.each([](RegionNumber, const Point<2> &, const Point<2> &) {},
                [&](RegionNumber region, const Point<2> &p) {
-                   is_sound = is_sound && fill_seed(region, p, fault);
+                   is_sound = is_sound && fill_seed(region, p, report, fault);
                });
     return is_sound;
 }
 
-bool Regions::fill_outlines(RegionParts &parts, abacus_region_fault &fault) {
+bool Regions::fill_outlines(RegionParts &parts, const Report &report, abacus_region_fault &fault) {
     OutlineSides sides(cache_.host(), memory_);
     parts.each(
         [&](RegionNumber region, const Point<2> &a, const Point<2> &b) {
@@ -33,16 +33,20 @@ bool Regions::fill_outlines(RegionParts &parts, abacus_region_fault &fault) {
     bool is_sound = true;
     while (is_sound) {
         edges_.emplace(cache_.host(), 4);
+        Box<2> box;
         const RegionNumber region = sides.next(
             [&](const Point<2> &from, const Point<2> &to) {
                 std::uint64_t *const record = edges_->add();
                 put_ordered(record, from);
                 put_ordered(record + 2, to);
+                box.extend(from);
+                box.extend(to);
             },
             open);
         if (region == no_region) break;
         if (open) fault = {ABACUS_REGION_OPEN, region, no_region, {(*open)[0], (*open)[1]}};
         is_sound = !open && flood_outline(region, fault);
+        if (is_sound) report(region, box);
         edges_->close();
     }
     edges_.reset();
@@ -141,7 +145,8 @@ Handle Regions::at_seed(RegionNumber region, const Point<2> &p, abacus_region_fa
     return is_on_fixed(h, p) ? no_handle : h;
 }
 
-bool Regions::fill_seed(RegionNumber region, const Point<2> &p, abacus_region_fault &fault) {
+bool Regions::fill_seed(RegionNumber region, const Point<2> &p, const Report &report,
+                        abacus_region_fault &fault) {
     const Handle h = at_seed(region, p, fault);
     if (h == no_handle) return false;
     const RegionNumber here = cache_.region(h);
@@ -150,7 +155,9 @@ bool Regions::fill_seed(RegionNumber region, const Point<2> &p, abacus_region_fa
     if (here != no_region) return here == region;
     flood_.begin(RegionFlood::Rule::seed, region);
     flood_.take(h);
-    return flood_.run(fault);
+    if (!flood_.run(fault)) return false;
+    report(region, flood_.box());
+    return true;
 }
 
 void Regions::clear(RegionParts &parts) {

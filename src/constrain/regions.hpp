@@ -17,8 +17,11 @@ class Regions {
 public:
     Regions(Delaunay<2> &mesh, std::size_t memory);
 
-    /// Puts triangles into their regions; false, and `fault` says why, if it is impossible.
-    bool fill(RegionParts &parts, abacus_region_fault &fault);
+    /// A box around triangles of a region.
+    using Report = std::function<void(RegionNumber region, const Box<2> &box)>;
+    /// Puts triangles into their regions, each of which lies in the boxes that are reported of it;
+    /// false, and `fault` says why, if it is impossible.
+    bool fill(RegionParts &parts, const Report &report, abacus_region_fault &fault);
     /// Takes all triangles out of the regions that have these parts.
     void clear(RegionParts &parts);
     /// Calls visit(region) for the regions on either side of each edge on the segment.
@@ -34,13 +37,14 @@ public:
     Handle at_seed(RegionNumber region, const Point<2> &p, abacus_region_fault &fault);
 
 private:
-    bool fill_outlines(RegionParts &parts, abacus_region_fault &fault);
+    bool fill_outlines(RegionParts &parts, const Report &report, abacus_region_fault &fault);
     /// Begins with the triangles along an edge that has the inside on its left.
     bool fill_beside(RegionNumber region, const Point<2> &from, const Point<2> &to,
                      abacus_region_fault &fault);
     bool flood_outline(RegionNumber region, abacus_region_fault &fault);
     void unmark_outside();
-    bool fill_seed(RegionNumber region, const Point<2> &p, abacus_region_fault &fault);
+    bool fill_seed(RegionNumber region, const Point<2> &p, const Report &report,
+                   abacus_region_fault &fault);
     /// Whether p, in the closure of a triangle, is on a fixed edge.
     bool is_on_fixed(Handle h, const Point<2> &p);
 

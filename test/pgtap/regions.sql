@@ -199,8 +199,8 @@ BEGIN
 	END;
 	RETURN is(found, format('regions: Region "%s" does not have the triangles that its outlines or seeds give it.', region), why);
 END $$;
-SELECT pg_temp.finds($$UPDATE field_regions SET number = (SELECT min(number) FROM field_regions WHERE region = CASE f.region WHEN 'hut' THEN 'wood' ELSE 'hut' END)
-    FROM field_regions AS f WHERE f.region IN ('hut', 'wood') AND (f.region, f.part) = (field_regions.region, field_regions.part)$$, 'hut', 'numbers exchanged');
+SELECT pg_temp.finds($$UPDATE field_regions AS r SET (number, lower, upper) = (SELECT f.number, f.lower, f.upper FROM field_regions AS f
+    WHERE f.region = CASE r.region WHEN 'hut' THEN 'wood' ELSE 'hut' END) WHERE region IN ('hut', 'wood')$$, 'hut', 'numbers exchanged');
 SELECT pg_temp.finds($$DELETE FROM field_regions WHERE region = 'fields' AND line = 3$$, 'fields', 'an outline lost');
 SELECT pg_temp.finds($$UPDATE field_regions SET line = 4 WHERE region = 'hut'$$, 'hut', 'another outline');
 SELECT pg_temp.finds($$UPDATE field_regions SET line = 7 WHERE region = 'hut'$$, 'hut', 'one that is not closed');
@@ -209,6 +209,12 @@ SELECT pg_temp.finds($$UPDATE field_regions SET y = 100 WHERE region = 'pond'$$,
 SELECT pg_temp.finds($$INSERT INTO field_regions SELECT region, number, part + 1, line, x, 4.5 FROM field_regions WHERE region = 'pond'$$, 'pond', 'one more seed');
 DELETE FROM field_regions WHERE region = 'wood';
 SELECT is((SELECT string_agg(fault || ': ' || message, ' ') FROM abacus_check('field')), 'regions: The header counts more or fewer regions than there are.', 'a region that is lost');
+
+-- boxes: of outlines and of seeds; without them, or with boxes that cannot be, all is read
+SELECT abacus_region('field', $$VALUES ('wood', 4)$$);
+DELETE FROM field_regions WHERE region <> 'wood';
+SELECT is((SELECT concat(lower, upper) FROM field_regions), '{6,1}{9,3}', 'the box of a region');
+SELECT is((SELECT string_agg(b, ' ') FROM (VALUES ('{NULL,NULL}'), ('{NaN,1}'), ('{7}'), ('{{6,1}}'), (NULL)) AS v (b)), '{NULL,NULL} {NaN,1} {7} {{6,1}}', 'wrong ones');
 
 -- many
 SELECT abacus_triangulate('town', 'SELECT 1000 * x + y, x, y FROM generate_series(0, 60) AS x, generate_series(0, 60) AS y');

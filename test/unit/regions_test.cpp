@@ -72,7 +72,12 @@ public:
                     parts.add_outline(region, a, b);
         for (const auto &[region, of] : seeds)
             for (const Point<2> &p : of) parts.add_seed(region, p);
-        const bool is_sound = Regions(mesh.delaunay, memory).fill(parts, fault);
+        const bool is_sound =
+            Regions(mesh.delaunay, memory)
+                .fill(
+                    parts,
+                    [&](RegionNumber region, const Box<2> &box) { boxes[region].extend(box); },
+                    fault);
         parts.close();
         return is_sound;
     }
@@ -147,6 +152,8 @@ public:
                         triangles.size());
             triangles.push_back(corners);
             regions.push_back(region);
+            if (region != no_region)
+                for (const Point<2> &p : corners) EXPECT_TRUE(boxes.at(region).contains(p));
         });
         std::vector<std::size_t> parent(triangles.size());
         for (std::size_t i = 0; i < parent.size(); ++i) parent[i] = i;
@@ -171,6 +178,7 @@ public:
     MeshInChange<2> mesh;
     std::map<std::int64_t, Ring> lines;
     std::set<Point<2>> points;
+    std::map<RegionNumber, Box<2>> boxes; // that were reported
 
 private:
     static bool contains(const std::array<Point<2>, 3> &t, const Point<2> &p) {

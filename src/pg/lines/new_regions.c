@@ -221,6 +221,7 @@ new_regions_remove(Change *change, const char *region)
 {
 	abacus_census *census = &change->writer.header->facts.census;
 	Relation	mesh = mesh_of(change);
+	abacus_extent found;
 	uint32		number;
 	char	   *table;
 	Datum		seeds;
@@ -233,7 +234,8 @@ new_regions_remove(Change *change, const char *region)
 				 errmsg("mesh \"%s\" has no regions", RelationGetRelationName(mesh)),
 				 errhint("Make regions with abacus_region().")));
 	table = regions_table_require(mesh, MESH_WRITE);
-	number = regions_table_number(mesh, MESH_WRITE, region);
+	regions_table_find(mesh, MESH_WRITE, region, &found);
+	number = found.region;
 	require_lines(change);
 	change_open_build(change);
 	mesh_regions_clear(&change->writer, change->build,

@@ -15,7 +15,7 @@
 #define LINE_POINT_COLUMNS 8
 #define LINES_TABLE_SUFFIX "_lines"
 #define REGION_PART_TYPE "abacus_region_part"
-#define REGION_PART_COLUMNS 6
+#define REGION_PART_COLUMNS 8
 #define REGIONS_TABLE_SUFFIX "_regions"
 
 /* What a caller intends to do, which decides the lock and the privileges it needs. */

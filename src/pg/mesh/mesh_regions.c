@@ -10,6 +10,7 @@
 #include "catalog/pg_type.h"
 #include "executor/spi.h"
 #include "nodes/bitmapset.h"
+#include "utils/array.h"
 #include "utils/builtins.h"
 #include "utils/float.h"
 #include "utils/memutils.h"
@@ -258,16 +259,81 @@ mesh_regions_refuse(Writer *writer, const abacus_region_fault *fault)
 
 /* ---- Changes ------------------------------------------------------------------------- */
 
+/* Boxes around regions: numbers, and lower and upper corners. */
+typedef struct Boxes
+{
+	Host	   *host;
+	int			count;
+	int			room;
+	Datum	   *numbers;
+	Datum	   *corners[4];
+} Boxes;
+
+/* Called by the core. */
+static abacus_host_status
+add_box(void *context, uint32_t region, const double *lower, const double *upper)
+{
+	Boxes	   *boxes = context;
+
+	GUARD_BEGIN();
+	if (boxes->count == boxes->room)
+	{
+		boxes->room = 2 * boxes->room + 64;
+		boxes->numbers = boxes->numbers == NULL ? palloc(boxes->room * sizeof(Datum))
+			: repalloc(boxes->numbers, boxes->room * sizeof(Datum));
+		for (int i = 0; i < 4; i++)
+			boxes->corners[i] = boxes->corners[i] == NULL ? palloc(boxes->room * sizeof(Datum))
+				: repalloc(boxes->corners[i], boxes->room * sizeof(Datum));
+	}
+	boxes->numbers[boxes->count] = Int32GetDatum((int32) region);
+	for (int i = 0; i < 2; i++)
+	{
+		boxes->corners[i][boxes->count] = Float8GetDatum(lower[i]);
+		boxes->corners[2 + i][boxes->count] = Float8GetDatum(upper[i]);
+	}
+	boxes->count++;
+	GUARD_END(boxes->host);
+	return ABACUS_HOST_OK;
+}
+
+/* Writes the boxes into the rows of their regions, which questions read. */
+static void
+write_boxes(Writer *writer, const Boxes *boxes)
+{
+	char	   *table = regions_table_require(mesh_of(writer), MESH_WRITE);
+	Oid			types[] = {INT4ARRAYOID, FLOAT8ARRAYOID, FLOAT8ARRAYOID, FLOAT8ARRAYOID, FLOAT8ARRAYOID};
+	Datum		arguments[lengthof(types)];
+
+	if (boxes->count == 0)
+		return;
+	arguments[0] = PointerGetDatum(construct_array(boxes->numbers, boxes->count, INT4OID, sizeof(int32), true, TYPALIGN_INT));
+	for (int i = 0; i < 4; i++)
+		arguments[1 + i] = PointerGetDatum(construct_array(boxes->corners[i], boxes->count, FLOAT8OID, sizeof(float8),
+														   FLOAT8PASSBYVAL, TYPALIGN_DOUBLE));
+	SPI_connect();
+	if (SPI_execute_with_args(psprintf("UPDATE %s AS r SET lower = b.lower, upper = b.upper FROM (SELECT u.number, "
+									   "ARRAY[pg_catalog.min(u.x0), pg_catalog.min(u.y0)] AS lower, "
+									   "ARRAY[pg_catalog.max(u.x1), pg_catalog.max(u.y1)] AS upper "
+									   "FROM ROWS FROM (pg_catalog.unnest($1), pg_catalog.unnest($2), pg_catalog.unnest($3), pg_catalog.unnest($4), "
+									   "pg_catalog.unnest($5)) AS u (number, x0, y0, x1, y1) GROUP BY u.number) AS b "
+									   "WHERE r.number OPERATOR(pg_catalog.=) b.number", table),
+							  lengthof(types), types, arguments, NULL, false, 0) != SPI_OK_UPDATE)
+		elog(ERROR, "could not write the boxes of regions: %s", SPI_result_code_string(SPI_result));
+	SPI_finish();
+}
+
 /* Puts triangles into regions, and closes their parts. */
 void
 mesh_regions_fill(Writer *writer, abacus_build *build, abacus_region_parts *parts)
 {
 	Host	   *host = writer->host;
+	Boxes		boxes = {.host = host};
 	abacus_region_fault fault;
 
-	if (host_run(host, abacus_build_fill_regions, build, parts, writer->header, &fault) == ABACUS_END)
+	if (host_run(host, abacus_build_fill_regions, build, parts, writer->header, add_box, &boxes, &fault) == ABACUS_END)
 		mesh_regions_refuse(writer, &fault);
 	abacus_region_parts_close(parts);
+	write_boxes(writer, &boxes);
 }
 
 /* Takes all triangles out of regions, and closes their parts. */

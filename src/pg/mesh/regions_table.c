@@ -6,10 +6,13 @@
  */
 #include "postgres.h"
 
+#include <math.h>
+
 #include "access/table.h"
 #include "catalog/pg_type.h"
 #include "executor/spi.h"
 #include "utils/acl.h"
+#include "utils/array.h"
 #include "utils/builtins.h"
 #include "utils/hsearch.h"
 #include "utils/lsyscache.h"
@@ -114,24 +117,53 @@ regions_table_name(Relation mesh, MeshAccess access, uint32 number)
 	return name;
 }
 
-/* The number of the region with a name; an error if there is none. */
-uint32
-regions_table_number(Relation mesh, MeshAccess access, const char *region)
+/* Takes a corner of a region's box; false if it has none, or none that can be. */
+static bool
+take_corner(HeapTuple tuple, TupleDesc desc, int column, double *corner)
+{
+	bool		isnull;
+	Datum		array = SPI_getbinval(tuple, desc, column, &isnull);
+	Datum	   *values;
+	bool	   *nulls;
+	int			count = 0;
+
+	if (!isnull)
+		deconstruct_array(DatumGetArrayTypeP(array), FLOAT8OID, sizeof(float8), FLOAT8PASSBYVAL, TYPALIGN_DOUBLE,
+						  &values, &nulls, &count);
+	if (count != 2 || nulls[0] || nulls[1])
+		return false;
+	for (int i = 0; i < 2; i++)
+		corner[i] = DatumGetFloat8(values[i]);
+	return isfinite(corner[0]) && isfinite(corner[1]);
+}
+
+/* The number of the region with a name and, if it is known, its box; an error if there is none. */
+void
+regions_table_find(Relation mesh, MeshAccess access, const char *region, abacus_extent *extent)
 {
 	char	   *table = regions_table_require(mesh, access);
 	Datum		number;
+	bool		isnull;
 	bool		found;
 
 	SPI_connect();
-	found = find(psprintf("SELECT number FROM %s WHERE region OPERATOR(pg_catalog.=) $1 LIMIT 1", table),
+	found = find(psprintf("SELECT number, lower, upper FROM %s WHERE region OPERATOR(pg_catalog.=) $1 LIMIT 1", table),
 				 access, TEXTOID, CStringGetTextDatum(region), &number);
+	if (found)
+	{
+		HeapTuple	tuple = SPI_tuptable->vals[0];
+		TupleDesc	desc = SPI_tuptable->tupdesc;
+
+		extent->region = (uint32) DatumGetInt32(SPI_getbinval(tuple, desc, 1, &isnull));
+		extent->has_box = take_corner(tuple, desc, 2, extent->lower) && take_corner(tuple, desc, 3, extent->upper) &&
+			extent->lower[0] <= extent->upper[0] && extent->lower[1] <= extent->upper[1];
+	}
 	SPI_finish();
 	if (!found)
 		ereport(ERROR,
 				(errcode(ERRCODE_UNDEFINED_OBJECT),
 				 errmsg("mesh \"%s\" has no region \"%s\"", RelationGetRelationName(mesh), region),
 				 errhint("abacus_regions() lists the regions of a mesh.")));
-	return (uint32) DatumGetInt32(number);
 }
 
 /* Refuses to take lines away, the ids of a query, if a region uses one. SPI is connected. */

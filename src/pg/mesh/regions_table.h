@@ -4,6 +4,7 @@
 #ifndef ABACUS_REGIONS_TABLE_H
 #define ABACUS_REGIONS_TABLE_H
 
+#include "abacus/extent.h"
 #include "abacus/facts.h"
 #include "pg/mesh/mesh.h"
 
@@ -14,7 +15,7 @@ extern Oid	regions_table_make(Relation mesh);
 extern char *regions_table_require(Relation mesh, MeshAccess access);
 extern char *regions_table_region(Relation mesh, MeshAccess access, uint32 number);
 extern char *regions_table_name(Relation mesh, MeshAccess access, uint32 number);
-extern uint32 regions_table_number(Relation mesh, MeshAccess access, const char *region);
+extern void regions_table_find(Relation mesh, MeshAccess access, const char *region, abacus_extent *extent);
 extern void regions_table_refuse_lines(Relation mesh, const char *ids);
 extern bool region_names_may_read(Oid mesh, Oid user);
 extern RegionNames *region_names_read(Oid mesh, const abacus_facts *facts);

@@ -77,6 +77,7 @@ public:
     bool is_own() const { return abacus_is_own(facts_.standing) != 0; }
     bool has_soft_lines() const { return facts_.census.soft_lines > 0; }
     bool is_empty() const { return size_ == 0; }
+    const abacus_facts &facts() const { return facts_; }
     /// Simplices and ghosts.
     std::uint64_t size() const { return size_; }
     /// A simplex of the cache as users see it, with the values at its corners.

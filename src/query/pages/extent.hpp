@@ -3,6 +3,7 @@
 #pragma once
 
 #include "geometry/ball.hpp"
+#include "geometry/box.hpp"
 #include "mesh/cache.hpp"
 #include "query/pages/area.hpp"
 
@@ -10,6 +11,7 @@
 #include <abacus/simplex.h>
 
 #include <cmath>
+#include <optional>
 
 namespace abacus {
 
@@ -18,6 +20,13 @@ inline bool limits_edges(const abacus_extent &extent) {
 }
 inline bool is_all(const abacus_extent &extent) {
     return !limits_edges(extent) && extent.region == no_region && extent.area == nullptr;
+}
+
+/// The box of the polygon or of the region, if it is known.
+inline std::optional<Box<2>> box_of(const abacus_extent &extent) {
+    if (const Polygon *polygon = polygon_of(extent)) return polygon->box();
+    if (extent.region == no_region || extent.has_box == 0) return {};
+    return Box<2>({extent.lower[0], extent.lower[1]}, {extent.upper[0], extent.upper[1]});
 }
 
 /// Whether none of the edges between n points, point(0) to point(n - 1), is longer than a bound.

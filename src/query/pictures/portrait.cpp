@@ -255,10 +255,9 @@ BoxRegion<2> shown(const abacus_drawing &drawing, std::int32_t margin) {
 
 Portrait draw_mesh(const Host &host, const abacus_facts &facts, const abacus_drawing &drawing) {
     if (shows_whole<2>(drawing)) {
-        const Polygon *polygon = polygon_of(drawing.extent);
-        const std::optional<BoxRegion<2>> around =
-            polygon == nullptr ? std::nullopt : std::optional<BoxRegion<2>>(polygon->box());
-        return draw<2>(host, facts, drawing, 0, around ? &*around : nullptr,
+        const std::optional<Box<2>> box = box_of(drawing.extent);
+        const BoxRegion<2> around(box.value_or(Box<2>()));
+        return draw<2>(host, facts, drawing, 0, box ? &around : nullptr,
                        FlatView(host, facts, drawing), ABACUS_RAMP_TERRAIN);
     }
     const std::int32_t margin = Canvas::margin_of(drawing);

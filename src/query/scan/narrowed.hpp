@@ -1,7 +1,8 @@
-// A window that leaves out what no polygon of an extent meets: pages beyond it are not read.
+// A window that leaves out what is beyond the polygon or the region of an extent: pages there are
+// not read.
 #pragma once
 
-#include "query/pages/area.hpp"
+#include "query/pages/extent.hpp"
 
 #include <abacus/windows.h>
 
@@ -9,16 +10,14 @@
 
 namespace abacus {
 
-/// The polygon's box, if there is no window.
+/// The box of the polygon or of the region, if there is no window.
 template <int D> abacus_window narrowed(const abacus_window &window, const abacus_extent &extent) {
-    const Polygon *polygon = polygon_of(extent);
-    if (D != 2 || polygon == nullptr) return window;
-    const Box<2> &box = polygon->box();
-    if (window.kind != ABACUS_NO_WINDOW || box.upper[0] < box.lower[0]) return window;
+    const std::optional<Box<2>> box = D == 2 ? box_of(extent) : std::nullopt;
+    if (!box || window.kind != ABACUS_NO_WINDOW || box->upper[0] < box->lower[0]) return window;
     abacus_window narrow{};
     narrow.kind = ABACUS_BOX_WINDOW;
-    std::copy_n(box.lower.begin(), 2, narrow.lower);
-    std::copy_n(box.upper.begin(), 2, narrow.upper);
+    std::copy_n(box->lower.begin(), 2, narrow.lower);
+    std::copy_n(box->upper.begin(), 2, narrow.upper);
     return narrow;
 }
 

@@ -1,5 +1,6 @@
 #include "query/scan/region_sizes.hpp"
 
+#include "geometry/box.hpp"
 #include "geometry/exact_sum.hpp"
 #include "geometry/ordered.hpp"
 
@@ -73,9 +74,12 @@ void region_sizes(Reader<2> &reader, std::size_t memory,
     sort.finish();
     abacus_region_size size{};
     ExactSum twice;
+    Box<2> box;
     const auto end_region = [&] {
         if (size.region == no_region) return;
         size.area = twice.value() / 2;
+        std::copy_n(box.lower.begin(), 2, size.lower);
+        std::copy_n(box.upper.begin(), 2, size.upper);
         visit(size);
     };
     while (const std::uint64_t *const record = sort.next()) {
@@ -84,6 +88,7 @@ void region_sizes(Reader<2> &reader, std::size_t memory,
             size = {};
             size.region = static_cast<RegionNumber>(record[0]);
             twice = {};
+            box = {};
         }
         if (record[1] == are_triangles) {
             size.triangles += record[2];
@@ -91,6 +96,7 @@ void region_sizes(Reader<2> &reader, std::size_t memory,
         }
         ++size.edges;
         const Point<2> a = point_from_ordered<2>(record + 3), b = point_from_ordered<2>(record + 5);
+        box.extend(a); // each vertex begins an edge
         add_product(twice, a[0], b[1]);
         add_product(twice, -b[0], a[1]);
     }

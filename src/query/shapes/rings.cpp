@@ -2,6 +2,7 @@
 
 #include "blocks/bit_column.hpp"
 #include "query/locate/hull_ghost.hpp"
+#include "query/scan/extent_pages.hpp"
 
 namespace abacus {
 
@@ -77,6 +78,29 @@ std::size_t Rings::find_starts_of_page(const Key &page, Arena<Border::Edge> &edg
     return triangles.size();
 }
 
+template <class Look> void Rings::each_page(Look look) {
+    const std::optional<Box<2>> box = box_of(kept_.extent);
+    if (!box) {
+        for (Key page = first_key; page < end_key;) {
+            look(page);
+            page = cache_.visit(page, [](Handle) {});
+        }
+        return;
+    }
+    if (box->upper[0] < box->lower[0]) return;
+    RecordSort keys(host_, 2, 2, share_);
+    const BoxRegion<2> region(*box);
+    RangeScan<2> pages(host_, reader_.facts(), &region, pages_in<2>(kept_.extent));
+    while (pages.advance()) {
+        std::uint64_t *const record = keys.add();
+        record[0] = pages.page().lower().code;
+        record[1] = pages.page().lower().part;
+    }
+    keys.finish();
+    while (const std::uint64_t *const record = keys.next()) look(Key{record[0], record[1]});
+    keys.close();
+}
+
 void Rings::find_starts(RecordSort &starts) {
     if (!reader_.is_empty() && kept_.is_all() && reader_.is_convex()) {
         find_hull(starts);
@@ -85,17 +109,16 @@ void Rings::find_starts(RecordSort &starts) {
         Pacer pacer(host_);
         pacer.begin(ABACUS_PHASE_SCANNING, reader_.size());
         std::uint64_t seen = 0;
-        for (Key page = first_key; page < end_key;) {
+        each_page([&](const Key &page) {
             edges.clear();
             pacer.reached(seen += find_starts_of_page(page, edges));
-            page = cache_.visit(page, [](Handle) {});
             edges_ += edges.size();
             for (Border::Edge edge : edges) {
                 border_.find(edge);
                 if (border_.is_first_of_ring(edge)) add_start(starts, edge);
                 cache_.trim();
             }
-        }
+        });
     }
     starts.finish();
 }

@@ -54,6 +54,8 @@ private:
     static constexpr std::size_t least_words = 8;
 
     void find_starts(RecordSort &starts);
+    /// Calls look(key) for the pages in which something may be kept, in their order.
+    template <class Look> void each_page(Look look);
     void find_hull(RecordSort &starts);
     /// Returns how many simplices the page has.
     std::size_t find_starts_of_page(const Key &page, Arena<Border::Edge> &edges);

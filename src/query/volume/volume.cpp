@@ -270,8 +270,8 @@ abacus_volume volume_between(const Host &host, const abacus_facts &facts,
                              const abacus_facts &other, std::uint32_t other_attribute,
                              std::size_t cache_bytes) {
     const Box<2> window = box_of<2>(surface.window);
-    const abacus_extent extent{surface.extent.max_edge, no_region, // regions are the mesh's own
-                               surface.extent.area};
+    abacus_extent extent = surface.extent;
+    extent.region = no_region; // regions are the mesh's own
     Overlaps overlaps(other_host, other, other_attribute, extent, window, cache_bytes);
     // A small window needs only its own pages, not those of the hull.
     const abacus_window around =

@@ -39,36 +39,39 @@ typedef struct LastRegion
 	Oid			mesh;
 	uint64		stamp;			/* 0: there is none */
 	char	   *name;
-	uint32		number;
+	abacus_extent extent;		/* its number and its box */
 } LastRegion;
 
+/* ... by its name, and by its number, then without a box. */
 static LastRegion last;
+static LastRegion last_named;
 
-static uint32
+static abacus_extent
 find_region(Oid mesh, const char *name)
 {
 	Relation	heap = table_open(mesh, NoLock);	/* locked since the mesh was got */
-	uint32		number = regions_table_number(heap, MESH_READ, name);
+	abacus_extent found = {0};
 
+	regions_table_find(heap, MESH_READ, name, &found);
 	table_close(heap, NoLock);
-	return number;
+	return found;
 }
 
 static void
-remember(Oid mesh, uint64 stamp, const char *name, uint32 number)
+remember(LastRegion *region, Oid mesh, uint64 stamp, const char *name, abacus_extent extent)
 {
 	char	   *copy = MemoryContextStrdup(TopMemoryContext, name);
 
-	if (last.name != NULL)
-		pfree(last.name);
-	last = (LastRegion) {GetUserId(), mesh, stamp, copy, number};
+	if (region->name != NULL)
+		pfree(region->name);
+	*region = (LastRegion) {GetUserId(), mesh, stamp, copy, extent};
 }
 
-/* The number of the region, which is remembered for the next call if the stamp of the mesh is given. */
-static uint32
+/* The region, which is remembered for the next call if the stamp of the mesh is given. */
+static abacus_extent
 region_of(const char *name, Oid mesh, const abacus_facts *facts, uint64 stamp)
 {
-	uint32		number;
+	abacus_extent found;
 
 	if (facts->census.regions == 0)
 		ereport(ERROR,
@@ -78,11 +81,11 @@ region_of(const char *name, Oid mesh, const abacus_facts *facts, uint64 stamp)
 				 errhint("Make regions with abacus_region(), or give a polygon as WKT.")));
 	if (stamp != 0 && last.stamp == stamp && last.mesh == mesh && last.user == GetUserId() &&
 		strcmp(last.name, name) == 0)
-		return last.number;
-	number = find_region(mesh, name);
+		return last.extent;
+	found = find_region(mesh, name);
 	if (stamp != 0)
-		remember(mesh, stamp, name, number);
-	return number;
+		remember(&last, mesh, stamp, name, found);
+	return found;
 }
 
 /*
@@ -93,15 +96,18 @@ void
 extent_within(FunctionCallInfo fcinfo, int argument, Oid mesh, const abacus_facts *facts, uint64 stamp,
 			  Host *owner, abacus_extent *extent)
 {
+	double		max_edge = extent->max_edge;
 	char	   *given;
 
-	extent->region = 0;
-	extent->area = NULL;
+	*extent = (abacus_extent) {.max_edge = max_edge};
 	if (PG_ARGISNULL(argument))
 		return;
 	given = text_to_cstring(PG_GETARG_TEXT_PP(argument));
 	if (!area_text_is(given))
-		extent->region = region_of(given, mesh, facts, stamp);
+	{
+		*extent = region_of(given, mesh, facts, stamp);
+		extent->max_edge = max_edge;
+	}
 	else if (owner != NULL)
 		extent->area = area_open(given, &facts->form, get_rel_name(mesh), owner->home);
 	else
@@ -117,13 +123,14 @@ extent_region_name(Oid mesh, const abacus_header *header, uint32 number)
 	Relation	heap;
 	char	   *name;
 
-	if (last.stamp == header->stamp && last.mesh == mesh && last.user == GetUserId() && last.number == number)
-		return last.name;
+	if (last_named.stamp == header->stamp && last_named.mesh == mesh && last_named.user == GetUserId() &&
+		last_named.extent.region == number)
+		return last_named.name;
 	heap = table_open(mesh, NoLock);	/* locked since the mesh was got */
 	name = regions_table_name(heap, MESH_READ, number);
 	table_close(heap, NoLock);
-	remember(mesh, header->stamp, name, number);
-	return last.name;
+	remember(&last_named, mesh, header->stamp, name, (abacus_extent) {.region = number});
+	return last_named.name;
 }
 
 /* Both arguments. */

@@ -26,14 +26,19 @@ static abacus_host_status
 put_size(void *context, const abacus_region_size *size)
 {
 	const Sizes *sizes = context;
-	Datum		values[4];
-	bool		isnull[4] = {false};
+	Datum		values[8];
+	bool		isnull[8] = {false};
 
 	GUARD_BEGIN();
 	values[0] = Int32GetDatum((int32) size->region);
 	values[1] = Int64GetDatum((int64) size->triangles);
 	values[2] = Float8GetDatum(size->area);
 	values[3] = Int64GetDatum((int64) size->edges);
+	for (int i = 0; i < 2; i++)
+	{
+		values[4 + i] = Float8GetDatum(size->lower[i]);
+		values[6 + i] = Float8GetDatum(size->upper[i]);
+	}
 	named_rows_put(sizes->rows, values, isnull);
 	GUARD_END(sizes->host);
 	return ABACUS_HOST_OK;
@@ -44,7 +49,8 @@ NamedRows *
 region_sizes_read(CachedMesh *cached)
 {
 	static const NamedColumn columns[] = {
-		{"number", INT4OID}, {"triangles", INT8OID}, {"area", FLOAT8OID}, {"edges", INT8OID}
+		{"number", INT4OID}, {"triangles", INT8OID}, {"area", FLOAT8OID}, {"edges", INT8OID},
+		{"x0", FLOAT8OID}, {"y0", FLOAT8OID}, {"x1", FLOAT8OID}, {"y1", FLOAT8OID}
 	};
 	Sizes		sizes = {cached->host, named_rows_create(REGION_SIZES, columns, lengthof(columns))};
 
@@ -82,8 +88,8 @@ regions_fault(Oid mesh)
 	char	   *table = regions_table_require(heap, MESH_READ);
 	char	   *fault = NULL;
 	NamedRows  *sizes;
-	Datum		counts[4];
-	bool		isnull[4];
+	Datum		counts[5];
+	bool		isnull[5];
 	int			level;
 
 	SPI_connect();
@@ -94,8 +100,10 @@ regions_fault(Oid mesh)
 	query_first(psprintf("SELECT (SELECT count(*) FROM (SELECT DISTINCT region, number FROM %1$s) AS r), "
 						 "(SELECT count(DISTINCT region) FROM %1$s WHERE line IS NULL), "
 						 "(SELECT count(*) FROM " REGION_SIZES " AS s WHERE NOT EXISTS (SELECT FROM %1$s AS r WHERE r.number = s.number)), "
-						 "(SELECT count(*) FROM %1$s AS r WHERE NOT EXISTS (SELECT FROM " REGION_SIZES " AS s WHERE r.number = s.number))",
-						 table), counts, isnull, 4);
+						 "(SELECT count(*) FROM %1$s AS r WHERE NOT EXISTS (SELECT FROM " REGION_SIZES " AS s WHERE r.number = s.number)), "
+						 "(SELECT count(*) FROM %1$s AS r JOIN " REGION_SIZES " AS s ON s.number = r.number WHERE s.x0 < r.lower[1] "
+						 "OR s.y0 < r.lower[2] OR s.x1 > r.upper[1] OR s.y1 > r.upper[2])",
+						 table), counts, isnull, 5);
 	plain_names_end(level);
 	named_rows_free(sizes);
 	SPI_finish();
@@ -105,6 +113,8 @@ regions_fault(Oid mesh)
 		fault = pstrdup("Triangles have the number of a region that does not exist.");
 	else if (DatumGetInt64(counts[3]) > 0)
 		fault = pstrdup("A region has no triangles.");
+	else if (DatumGetInt64(counts[4]) > 0)
+		fault = pstrdup("A region goes beyond its box.");
 	else
 		fault = parts_fault(cached, heap);
 	table_close(heap, NoLock);
