@@ -181,6 +181,20 @@ SELECT is((SELECT count(*) FROM abacus_check('field')), 0::bigint, 'when they ar
 SELECT abacus_region('field', $$VALUES ('hut', 5)$$);
 SELECT is((SELECT concat_ws(' ', triangles, area) FROM abacus_regions('field') WHERE region = 'hut'), '4 2', 'and comes back');
 
+-- boxes around regions, of outlines and of seeds; where there is none that can be, all pages are read
+SELECT is((SELECT string_agg(DISTINCT concat_ws(' ', region, lower, upper), '; ') FROM field_regions), 'fields {1,1} {6,6}; hut {6,6} {8,8}; pond {2,2} {5,4}; wood {6,1} {9,3}', 'boxes');
+CREATE FUNCTION pg_temp.counted(box text) RETURNS bigint LANGUAGE plpgsql AS $$
+BEGIN
+	EXECUTE format($q$UPDATE field_regions SET upper = %L WHERE region = 'wood'$q$, box);
+	PERFORM abacus_insert('field', 'VALUES (3000, 0.5, 8.5, 1)'), abacus_delete('field', 'VALUES (3000, 0.5, 8.5, 1)'); -- what is remembered is forgotten
+	RETURN (SELECT count(*) FROM abacus_cells('field', within => 'wood'));
+END $$;
+SELECT is(pg_temp.counted(box), 12::bigint, coalesce(box, 'none')) FROM (VALUES ('{9,3}'), ('{NULL,NULL}'), ('{NaN,3}'), ('{Infinity,3}'), ('{7}'), ('{-7,3}'), (NULL)) AS v (box);
+UPDATE field_regions SET upper = '{8,3}' WHERE region = 'wood';
+SELECT is((SELECT string_agg(fault || ': ' || message, ' ') FROM abacus_check('field')), 'regions: A region goes beyond its box.', 'a box that is too small');
+UPDATE field_regions SET upper = '{9,3}' WHERE region = 'wood';
+SELECT is((SELECT count(*) FROM abacus_check('field')), 0::bigint, 'sound');
+
 -- numbers, damage
 UPDATE field_regions SET number = number + 70 WHERE region = 'hut';
 SELECT is((SELECT string_agg(fault || ': ' || message, ' ') FROM abacus_check('field')), 'regions: Triangles have the number of a region that does not exist.', 'a number that does not fit');
@@ -209,12 +223,6 @@ SELECT pg_temp.finds($$UPDATE field_regions SET y = 100 WHERE region = 'pond'$$,
 SELECT pg_temp.finds($$INSERT INTO field_regions SELECT region, number, part + 1, line, x, 4.5 FROM field_regions WHERE region = 'pond'$$, 'pond', 'one more seed');
 DELETE FROM field_regions WHERE region = 'wood';
 SELECT is((SELECT string_agg(fault || ': ' || message, ' ') FROM abacus_check('field')), 'regions: The header counts more or fewer regions than there are.', 'a region that is lost');
-
--- boxes: of outlines and of seeds; without them, or with boxes that cannot be, all is read
-SELECT abacus_region('field', $$VALUES ('wood', 4)$$);
-DELETE FROM field_regions WHERE region <> 'wood';
-SELECT is((SELECT concat(lower, upper) FROM field_regions), '{6,1}{9,3}', 'the box of a region');
-SELECT is((SELECT string_agg(b, ' ') FROM (VALUES ('{NULL,NULL}'), ('{NaN,1}'), ('{7}'), ('{{6,1}}'), (NULL)) AS v (b)), '{NULL,NULL} {NaN,1} {7} {{6,1}}', 'wrong ones');
 
 -- many
 SELECT abacus_triangulate('town', 'SELECT 1000 * x + y, x, y FROM generate_series(0, 60) AS x, generate_series(0, 60) AS y');
