@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t edge_words = 4;
 
-// A face with its region, its name, and whether a seed (0) or an edge (1) tells of it.
+// A face with its region, its name, and whether it comes from a seed (0) or an edge (1).
 constexpr std::size_t face_words = 1 + edge_words + 1;
 
 void put_edge(std::uint64_t *words, const Faces::Edge &edge) {
