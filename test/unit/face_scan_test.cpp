@@ -1,5 +1,6 @@
 // Vertices and edges of windows, each once: compared with brute force over all simplices.
 #include "query/scan/face_scan.hpp"
+#include "support/extents.hpp"
 #include "support/point_sets.hpp"
 #include "support/sanitized.hpp"
 #include "support/triangulations.hpp"
@@ -19,7 +20,7 @@ template <int D>
 std::multiset<Face<D>> read(MeshOf<D> &mesh, const abacus_window &window, int corners,
                             double max_edge) {
     const Host host = mesh.host.host();
-    FaceScan<D> scan(host, mesh.header, window, corners, {max_edge, 0, nullptr},
+    FaceScan<D> scan(host, mesh.header, window, corners, up_to(max_edge),
                      std::size_t{1} << 20);
     std::multiset<Face<D>> found;
     while (scan.advance()) {

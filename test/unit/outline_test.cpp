@@ -2,6 +2,7 @@
 #include "geometry/ball.hpp"
 #include "geometry/circumradius.hpp"
 #include "geometry/distance.hpp"
+#include "support/extents.hpp"
 #include "support/point_sets.hpp"
 #include "support/sanitized.hpp"
 #include "support/triangulations.hpp"
@@ -112,7 +113,7 @@ std::multiset<Facet<D>> border_by_hand(MeshOf<D> &mesh, const abacus_outline_kin
 template <int D> void expect_outlines(MeshOf<D> &mesh, std::initializer_list<double> sizes) {
     for (const double size : sizes) {
         SCOPED_TRACE(size);
-        std::vector<abacus_outline_kind> kinds{{{size, 0, nullptr}, 0, 0, 0}};
+        std::vector<abacus_outline_kind> kinds{{up_to(size), 0, 0, 0}};
         if (mesh.header.facts.standing == 0) kinds.push_back({{}, 1, size * size, 0});
         for (const abacus_outline_kind &kind : kinds) {
             const auto expected = border_by_hand<D>(mesh, kind);

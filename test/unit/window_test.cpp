@@ -3,6 +3,7 @@
 #include "geometry/ball.hpp"
 #include "query/locate/reader.hpp"
 #include "query/scan/cell_scan.hpp"
+#include "support/extents.hpp"
 #include "support/point_sets.hpp"
 #include "support/triangulations.hpp"
 
@@ -106,7 +107,7 @@ template <int D> Positions<D> places(const abacus_simplex &s) {
 template <int D>
 std::multiset<Positions<D>> read(MeshOf<D> &mesh, const abacus_window &window, double max_edge) {
     const Host host = mesh.host.host();
-    CellScan<D> scan(host, mesh.header, window, {max_edge, 0, nullptr});
+    CellScan<D> scan(host, mesh.header, window, up_to(max_edge));
     std::multiset<Positions<D>> found;
     abacus_simplex simplex;
     while (scan.next(simplex, nullptr)) found.insert(places<D>(simplex));
