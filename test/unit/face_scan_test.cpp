@@ -20,8 +20,7 @@ template <int D>
 std::multiset<Face<D>> read(MeshOf<D> &mesh, const abacus_window &window, int corners,
                             double max_edge) {
     const Host host = mesh.host.host();
-    FaceScan<D> scan(host, mesh.header, window, corners, up_to(max_edge),
-                     std::size_t{1} << 20);
+    FaceScan<D> scan(host, mesh.header, window, corners, up_to(max_edge), std::size_t{1} << 20);
     std::multiset<Face<D>> found;
     while (scan.advance()) {
         Face<D> face;
