@@ -152,8 +152,8 @@ public:
                         triangles.size());
             triangles.push_back(corners);
             regions.push_back(region);
-            if (region != no_region)
-                for (const Point<2> &p : corners) EXPECT_TRUE(boxes.at(region).contains(p));
+            for (const Point<2> &p : corners)
+                EXPECT_TRUE(region == no_region || boxes.at(region).contains(p));
         });
         std::vector<std::size_t> parent(triangles.size());
         for (std::size_t i = 0; i < parent.size(); ++i) parent[i] = i;
