@@ -52,9 +52,9 @@ class OctreeScript:
 class Script:
     """What psql is sent, in pieces of (rows, text). Names and texts come by way of statement(), where psql does not look into them."""
 
-    def __init__(self, mesh, found, groups, retriangulate, split_nodes):
+    def __init__(self, mesh, found, groups, retriangulate, split_nodes, inherit):
         self.mesh, self.found, self.groups = mesh, found, groups
-        self.retriangulate, self.split_nodes = retriangulate, split_nodes
+        self.options = {"retriangulate": retriangulate, "split_nodes": split_nodes, "inherit": inherit}
         self.axes = "xyz"[: found.dimension]
         self.attributes = [f"a{n}" for n in range(len(found.names))]
         self.corners = [f"v{n}" for n in range(found.dimension + 1)]
@@ -80,7 +80,7 @@ class Script:
         return (f"SELECT abacus_load({literal(self.mesh)}, {literal(points)}, 'TABLE abacus_import_simplices', "
                 f"attributes => {texts(self.found.names)}, labels => {texts(self.found.label_names) if self.labels else 'NULL'}, "
                 f"facets => {literal('TABLE abacus_import_facets') if len(self.found.facets) else 'NULL'}, "
-                f"retriangulate => {'true' if self.retriangulate else 'false'}, split_nodes => {'true' if self.split_nodes else 'false'})")
+                f"{', '.join(f'{name} => {str(wanted).lower()}' for name, wanted in self.options.items())})")
 
     def named_groups(self):
         """A table of the names that the file gives its labels and markers."""

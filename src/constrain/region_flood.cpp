@@ -43,8 +43,7 @@ void RegionFlood::take(Handle h) {
 
 bool RegionFlood::look_around(Handle h, abacus_region_fault &fault) {
     const auto fail = [&](abacus_region_fault_kind kind, RegionNumber other, VertexIndex v) {
-        const Point<2> &p = cache_.point(v);
-        fault = {kind, region_, other, {p[0], p[1]}};
+        fault = region_fault(kind, region_, other, cache_.point(v));
         return false;
     };
     for (int i = 0; i < 3; ++i) {

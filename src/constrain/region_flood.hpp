@@ -16,6 +16,12 @@
 
 namespace abacus {
 
+/// Why a region cannot be, with a place.
+inline abacus_region_fault region_fault(abacus_region_fault_kind kind, RegionNumber region,
+                                        RegionNumber other, const Point<2> &place = {}) {
+    return {kind, region, other, {place[0], place[1]}, {}};
+}
+
 class RegionFlood {
 public:
     /// How far it goes:

@@ -44,7 +44,7 @@ bool Regions::fill_outlines(RegionParts &parts, const Report &report, abacus_reg
             },
             open);
         if (region == no_region) break;
-        if (open) fault = {ABACUS_REGION_OPEN, region, no_region, {(*open)[0], (*open)[1]}};
+        if (open) fault = region_fault(ABACUS_REGION_OPEN, region, no_region, *open);
         is_sound = !open && flood_outline(region, fault);
         if (is_sound) report(region, box);
         edges_->close();
@@ -66,13 +66,12 @@ bool Regions::flood_outline(RegionNumber region, abacus_region_fault &fault) {
             return false;
     }
     if (!is_any) {
-        fault = {ABACUS_REGION_EMPTY, region, no_region, {}};
+        fault = region_fault(ABACUS_REGION_EMPTY, region, no_region);
         return false;
     }
     if (!flood_.run(fault)) return false;
     if (const auto overlap = touching_.overlap()) {
-        fault = {
-            ABACUS_REGION_TWICE, region, overlap->other, {overlap->place[0], overlap->place[1]}};
+        fault = region_fault(ABACUS_REGION_TWICE, region, overlap->other, overlap->place);
         return false;
     }
     unmark_outside();
@@ -85,7 +84,7 @@ bool Regions::fill_beside(RegionNumber region, const Point<2> &from, const Point
     const Handle inner = link_simplex(edge), outer = right_of(cache_, edge);
     const RegionNumber here = cache_.region(inner), there = cache_.region(outer);
     if (here != no_region && here != region) {
-        fault = {ABACUS_REGION_TWICE, region, here, {from[0], from[1]}};
+        fault = region_fault(ABACUS_REGION_TWICE, region, here, from);
         return false;
     }
     if (there == no_region && !cache_.simplex(outer).is_ghost()) {
@@ -133,7 +132,7 @@ bool Regions::is_on_fixed(Handle h, const Point<2> &p) {
 }
 
 Handle Regions::at_seed(RegionNumber region, const Point<2> &p, abacus_region_fault &fault) {
-    fault = {ABACUS_REGION_SEED_OUTSIDE, region, no_region, {p[0], p[1]}};
+    fault = region_fault(ABACUS_REGION_SEED_OUTSIDE, region, no_region, p);
     Handle h = mesh_.locate(p, cache_.domain().code(p), mesh_.any_recent());
     if (const int at = mesh_.corner_at(h, p); at >= 0)
         turn_around(cache_, make_link(h, at), [&](Handle around, int) {

@@ -232,7 +232,7 @@ class Files(unittest.TestCase):
                                          f"AND a.attributes[2:5] = b.attributes[{first + 1}:{first + 4}]"), [["200"]])
 
     def test_gmsh(self):
-        """Ids, materials and markers as Gmsh has them; with --retriangulate there are none, which is said."""
+        """Ids, materials and markers as Gmsh has them; with --retriangulate those of what is left."""
         (self.at / "g.msh").write_text("$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n5\n10 0 0 0\n20 1 0 0\n30 0 1 0\n40 1 1 0\n50 2 0.5 0\n$EndNodes\n"
                                        "$Elements\n5\n1 1 2 77 1 10 20\n2 1 2 77 1 20 50\n3 2 2 5 1 10 20 30\n4 2 2 5 1 20 40 30\n5 2 2 0 2 20 50 40\n$EndElements\n")
         done = run("abacus-import", self.at / "g.msh", "files_gmsh")
@@ -240,7 +240,16 @@ class Files(unittest.TestCase):
         self.assertEqual(abacus.rows("SELECT marker, v0, v1 FROM abacus_facets('files_gmsh') ORDER BY v0"), [["77", "10", "20"], ["77", "20", "50"]])
         self.assertEqual(abacus.rows("SELECT abacus_labels('files_gmsh'), labels, count(*) FROM abacus_cells('files_gmsh') GROUP BY labels ORDER BY labels"),
                          [["{material}", "{0}", "1"], ["{material}", "{5}", "2"]])
-        self.assertEqual(run("abacus-import", "--retriangulate", self.at / "g.msh", "files_gmsh_anew").returncode, 0)
+        (self.at / "f.msh").write_text((self.at / "g.msh").read_text().replace("40 1 1 0", "40 0.9 0.9 0"))  # the diagonal has to be flipped
+        for options, inherited in ([], "NULL"), (["--inherit"], "5"):
+            done = run("abacus-import", "--retriangulate", *options, self.at / "f.msh", "files_gmsh_anew")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertIn("Of 3 triangles with labels, 2 are not in the new one. Of 2 facets with markers, 0 are not in the new one.", done.stderr)
+            self.assertEqual(abacus.rows("SELECT labels, count(*) FROM abacus_cells('files_gmsh_anew') GROUP BY labels ORDER BY labels"),
+                             sorted([["{0}", "1"], [f"{{{inherited}}}", "2"]]))
+            self.assertEqual(abacus.rows("SELECT marker, v0, v1 FROM abacus_facets('files_gmsh_anew') ORDER BY v0"), [["77", "10", "20"], ["77", "20", "50"]])
+            abacus.psql("DROP TABLE files_gmsh_anew")
+        self.assertIn("--inherit is for --retriangulate", run("abacus-import", "--inherit", self.at / "g.msh", "files_gmsh_anew").stderr)
 
     def test_split_nodes_and_back(self):
         abacus.psql("SELECT abacus_load('files_fault', 'VALUES (1, 0, 0, 0), (2, 2, 0, 0), (4, 0, 2, 0), (5, 2, 2, 0), (12, 2, 0, 1), (3, 4, 0, 1), (6, 4, 2, 1), (15, 2, 2, 1)', "

@@ -142,7 +142,7 @@ class Points(abacus.InFolder):
                 ("no point is there, or none that is wanted", good, mesh, "--class", "200"), ("grund' is not a class", good, mesh, "--class", "grund"),
                 ("colour is not an attribute .*classification", good, mesh, "--attributes", "z,colour"), ("points of format 1 have no red", good, mesh, "--attributes", "red"),
                 ("--band is not for .las, .laz", good, mesh, "--band", "1"), ("is not a COPC file", good, mesh, "--spacing", "1"), ("is not the name of a table", good, mesh, "--table", "a b"),
-                ("--retriangulate and --surface are for files of meshes", good, mesh, "--retriangulate"), ("several files must be of one kind", good, self.at / "a.tif", mesh),
+                ("--retriangulate, --inherit and --surface are for files of meshes", good, mesh, "--retriangulate"), ("several files must be of one kind", good, self.at / "a.tif", mesh),
                 ("several are for points", self.at / "a.ply", self.at / "b.ply", mesh), ("--spacing and --band are for points", self.at / "a.ply", mesh, "--class", "2"),
                 ("not loaded", good, mesh, "--table", "pg_catalog.pg_class")):
             self.refused(said, *arguments)
