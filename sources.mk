@@ -281,6 +281,7 @@ PG_SOURCES += src/pg/fdw/published.c
 PG_SOURCES += src/pg/fdw/scan.c
 PG_SOURCES += src/pg/geos/area_text.c
 PG_SOURCES += src/pg/geos/clipped_rings.c
+PG_SOURCES += src/pg/geos/geometry_text.c
 PG_SOURCES += src/pg/geos/geos.c
 PG_SOURCES += src/pg/goose/goose_row.c
 PG_SOURCES += src/pg/goose/goose_table.c

@@ -55,7 +55,9 @@ typedef struct abacus_region_fault
 	uint32_t region;
 	uint32_t other;  /* the region that has the triangle, or 0 */
 	double place[2];
-	double end[2];   /* ... where the segment that begins at the place ends */
+	double edge[2][2]; /* both ends of a fixed edge there, or of the segment that is to go */
+	int64_t line;      /* that has the edge, if it is known */
+	int32_t has_line;
 } abacus_region_fault;
 
 /* Gets a box around triangles of a region; several may come of one, which lies in all of them together. */

@@ -70,7 +70,7 @@ template <int D> bool Constraining<D>::unfix(Segments &segments, abacus_region_f
             if (!is_sound) return;
             const RegionNumber ending = freeing.free(s.a, s.b);
             is_sound = ending == no_region;
-            fault = {ABACUS_REGION_BORDER, ending, no_region, {s.a[0], s.a[1]}, {s.b[0], s.b[1]}};
+            fault = region_fault(ABACUS_REGION_BORDER, ending, no_region, s.a, s.a, s.b);
         });
         return is_sound;
     } else {
@@ -98,13 +98,26 @@ template <int D> template <class Change> void Constraining<D>::with_regions(Chan
     }
 }
 
+template <int D> void Constraining<D>::name_line(abacus_region_fault &fault) {
+    if constexpr (D == 2) {
+        const Point<2> a{fault.edge[0][0], fault.edge[0][1]}, b{fault.edge[1][0], fault.edge[1][1]};
+        if (work_.lines == nullptr || a == b) return;
+        const auto line = LinesOver(work_.core->mesh, *work_.lines).find(a, b);
+        fault.has_line = line ? 1 : 0;
+        fault.line = line.value_or(0);
+    }
+}
+
 template <int D>
 bool Constraining<D>::fill_regions(RegionParts &parts, const Regions::Report &report,
                                    abacus_region_fault &fault) {
     bool is_sound = true;
     with_regions(
         [&](auto &mesh) { is_sound = Regions(mesh, parts.memory()).fill(parts, report, fault); });
-    if (is_sound) parts.close();
+    if (is_sound)
+        parts.close();
+    else
+        name_line(fault);
     return is_sound;
 }
 
@@ -122,7 +135,10 @@ bool Constraining<D>::cut_regions(Segments &segments, RegionParts &parts,
         segments.each([&](const Segment &s) { cuts.add(s.a, s.b); });
         is_sound = cuts.finish(parts, fault);
     });
-    if (is_sound) parts.close();
+    if (is_sound)
+        parts.close();
+    else
+        name_line(fault);
     return is_sound;
 }
 

@@ -55,6 +55,8 @@ private:
     bool counts_crowded() const override { return false; }
 
     template <class Change> std::uint64_t each(Segments &segments, Change change);
+    /// Finds a line over the edge of a fault.
+    void name_line(abacus_region_fault &fault);
     /// Calls change(mesh) with a mesh in the plane, which may have regions.
     template <class Change> void with_regions(Change change);
 

@@ -16,10 +16,11 @@
 
 namespace abacus {
 
-/// Why a region cannot be, with a place.
+/// Why a region cannot be, with a place and, if there is one, an edge at it.
 inline abacus_region_fault region_fault(abacus_region_fault_kind kind, RegionNumber region,
-                                        RegionNumber other, const Point<2> &place = {}) {
-    return {kind, region, other, {place[0], place[1]}, {}};
+                                        RegionNumber other, const Point<2> &place = {},
+                                        const Point<2> &a = {}, const Point<2> &b = {}) {
+    return {kind, region, other, {place[0], place[1]}, {{a[0], a[1]}, {b[0], b[1]}}, 0, 0};
 }
 
 class RegionFlood {

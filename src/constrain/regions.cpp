@@ -71,7 +71,8 @@ bool Regions::flood_outline(RegionNumber region, abacus_region_fault &fault) {
     }
     if (!flood_.run(fault)) return false;
     if (const auto overlap = touching_.overlap()) {
-        fault = region_fault(ABACUS_REGION_TWICE, region, overlap->other, overlap->place);
+        fault = region_fault(ABACUS_REGION_TWICE, region, overlap->other, overlap->a, overlap->a,
+                             overlap->b);
         return false;
     }
     unmark_outside();
@@ -84,7 +85,7 @@ bool Regions::fill_beside(RegionNumber region, const Point<2> &from, const Point
     const Handle inner = link_simplex(edge), outer = right_of(cache_, edge);
     const RegionNumber here = cache_.region(inner), there = cache_.region(outer);
     if (here != no_region && here != region) {
-        fault = region_fault(ABACUS_REGION_TWICE, region, here, from);
+        fault = region_fault(ABACUS_REGION_TWICE, region, here, from, from, to);
         return false;
     }
     if (there == no_region && !cache_.simplex(outer).is_ghost()) {
@@ -112,23 +113,25 @@ void Regions::unmark_outside() {
     }
 }
 
-bool Regions::is_on_fixed(Handle h, const Point<2> &p) {
+Link Regions::fixed_edge_at(Handle h, const Point<2> &p) {
+    Link found = unset;
     const int at = mesh_.corner_at(h, p);
-    bool is = false;
     if (at >= 0) {
         turn_around(cache_, make_link(h, at), [&](Handle around, int corner) {
-            is = cache_.is_fixed(make_link(around, (corner + 2) % 3));
-            return !is;
+            const Link edge = make_link(around, (corner + 2) % 3);
+            if (cache_.is_fixed(edge)) found = edge;
+            return found == unset;
         });
-        return is;
+        return found;
     }
     for (int i = 0; i < 3; ++i) {
         const auto &vertex = cache_.simplex(h).vertex;
-        is = is || (cache_.is_fixed(make_link(h, i)) &&
-                    orientation(cache_.point(vertex[(i + 1) % 3]),
-                                cache_.point(vertex[(i + 2) % 3]), p) == 0);
+        if (cache_.is_fixed(make_link(h, i)) &&
+            orientation(cache_.point(vertex[(i + 1) % 3]), cache_.point(vertex[(i + 2) % 3]), p) ==
+                0)
+            found = make_link(h, i);
     }
-    return is;
+    return found;
 }
 
 Handle Regions::at_seed(RegionNumber region, const Point<2> &p, abacus_region_fault &fault) {
@@ -140,8 +143,13 @@ Handle Regions::at_seed(RegionNumber region, const Point<2> &p, abacus_region_fa
             return cache_.simplex(h).is_ghost();
         });
     if (cache_.simplex(h).is_ghost()) return no_handle;
-    fault.kind = ABACUS_REGION_SEED_FIXED;
-    return is_on_fixed(h, p) ? no_handle : h;
+    const Link edge = fixed_edge_at(h, p);
+    if (edge == unset) return h;
+    const auto &vertex = cache_.simplex(link_simplex(edge)).vertex;
+    fault = region_fault(ABACUS_REGION_SEED_FIXED, region, no_region, p,
+                         cache_.point(vertex[(link_facet(edge) + 1) % 3]),
+                         cache_.point(vertex[(link_facet(edge) + 2) % 3]));
+    return no_handle;
 }
 
 bool Regions::fill_seed(RegionNumber region, const Point<2> &p, const Report &report,
@@ -149,8 +157,7 @@ bool Regions::fill_seed(RegionNumber region, const Point<2> &p, const Report &re
     const Handle h = at_seed(region, p, fault);
     if (h == no_handle) return false;
     const RegionNumber here = cache_.region(h);
-    fault.kind = ABACUS_REGION_TWICE;
-    fault.other = here;
+    fault = region_fault(ABACUS_REGION_TWICE, region, here, p);
     if (here != no_region) return here == region;
     flood_.begin(RegionFlood::Rule::seed, region);
     flood_.take(h);

@@ -45,8 +45,8 @@ private:
     void unmark_outside();
     bool fill_seed(RegionNumber region, const Point<2> &p, const Report &report,
                    abacus_region_fault &fault);
-    /// Whether p, in the closure of a triangle, is on a fixed edge.
-    bool is_on_fixed(Handle h, const Point<2> &p);
+    /// A fixed edge that p, in the closure of a triangle, lies on; `unset` if there is none.
+    Link fixed_edge_at(Handle h, const Point<2> &p);
 
     Delaunay<2> &mesh_;
     Cache<2> &cache_;

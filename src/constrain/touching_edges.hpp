@@ -24,7 +24,7 @@ public:
 
     struct Overlap {
         RegionNumber other;
-        Point<2> place;
+        Point<2> a, b; // both ends of the edge
     };
     /// The first edge that has been met and is not known. No more edges can be added.
     std::optional<Overlap> overlap() {
@@ -39,7 +39,7 @@ public:
                 is_any = true;
             } else if (!is_any || !std::equal(known.begin(), known.end(), record)) {
                 found = {static_cast<RegionNumber>(record[end_words + 1]),
-                         point_from_ordered<2>(record)};
+                         point_from_ordered<2>(record), point_from_ordered<2>(record + 2)};
                 break;
             }
         }

@@ -7,77 +7,21 @@
  */
 #include "postgres.h"
 
-#include <ctype.h>
 #include <geos_c.h>
 
 #include "miscadmin.h"
 
+#include "pg/base/text_begin.h"
 #include "pg/port/port.h"
 #include "pg/geos/area_text.h"
+#include "pg/geos/geometry_text.h"
 #include "pg/geos/geos.h"
 
-/* Behind "SRID=number;". */
-static const char *
-behind_srid(const char *text, int32 *srid)
-{
-	char	   *end;
-	long		number;
-
-	*srid = 0;
-	if (pg_strncasecmp(text, "SRID=", 5) != 0)
-		return text;
-	number = strtol(text + 5, &end, 10);
-	if (end == text + 5 || *end != ';' || number < 0 || number > PG_INT32_MAX)
-		return text;
-	*srid = (int32) number;
-	return end + 1;
-}
-
-static const char *
-behind_spaces(const char *text)
-{
-	while (isspace((unsigned char) *text))
-		text++;
-	return text;
-}
-
-/* Whether all are hexadecimal digits, of which WKB begins with a byte order of 0 or 1. */
-static bool
-is_hexadecimal(const char *text)
-{
-	size_t		length = strlen(text);
-
-	return length >= 18 && length % 2 == 0 && text[0] == '0' && (text[1] == '0' || text[1] == '1') &&
-		strspn(text, "0123456789abcdefABCDEF") == length;
-}
-
-/* Whether a text is a geometry, and no name: WKT has parentheses, or says that it is empty. */
+/* Whether a text is a geometry, and no name. */
 bool
 area_text_is(const char *text)
 {
-	static const char *const kinds[] = {
-		"MULTIPOLYGON", "POLYGON", "MULTIPOINT", "POINT", "MULTILINESTRING", "LINESTRING", "LINEARRING",
-		"GEOMETRYCOLLECTION", "CURVEPOLYGON", "MULTISURFACE", "TIN", "TRIANGLE", "POLYHEDRALSURFACE"
-	};
-	int32		srid;
-
-	text = behind_spaces(behind_srid(behind_spaces(text), &srid));
-	if (is_hexadecimal(text))
-		return true;
-	for (size_t i = 0; i < lengthof(kinds); i++)
-	{
-		size_t		length = strlen(kinds[i]);
-		const char *rest = text + length;
-
-		if (pg_strncasecmp(text, kinds[i], length) != 0 || isalnum((unsigned char) *rest))
-			continue;
-		rest = behind_spaces(rest);
-		while (*rest != '\0' && strchr("zmZM", *rest) != NULL)
-			rest++;
-		rest = behind_spaces(rest);
-		return *rest == '(' || pg_strcasecmp(rest, "EMPTY") == 0;
-	}
-	return false;
+	return geometry_text(text) != NO_GEOMETRY;
 }
 
 pg_noreturn static void
@@ -160,13 +104,24 @@ take_rings(Geos *geos, const GEOSGeometry *geometry, AreaText *area)
 GEOSGeometry *
 area_text_geometry(Geos *geos, const char *text)
 {
+	const char *whole = text;
+	const char *curved = geometry_text_curved(whole);
+	const char *excess;
 	int32		srid;
 	GEOSGeometry *geometry;
 
-	text = behind_spaces(behind_srid(behind_spaces(text), &srid));
-	geometry = is_hexadecimal(text) ? geos_read_hex(geos, text) : geos_read_text(geos, text);
+	if (curved != NULL)
+		refuse(psprintf("It is a %s.", curved),
+			   "Make it a polygon, with ST_CurveToLine of a curve, or with ST_UnaryUnion of a surface.");
+	text = geometry_text_behind_srid(whole, &srid);
+	if (geometry_text(whole) == GEOMETRY_WKT && (strcasestr(text, "nan") != NULL || strcasestr(text, "inf") != NULL))
+		refuse("A coordinate is not a finite number.", "Give finite coordinates.");
+	geometry = geometry_text(whole) == GEOMETRY_HEX ? geos_read_hex(geos, text) : geos_read_text(geos, text);
 	if (geometry == NULL)
 		refuse(geos_message(geos), "Give the name of a region, or a polygon as WKT, EWKT or hexadecimal EWKB.");
+	excess = geometry_text_excess(whole);
+	if (*excess != '\0')
+		refuse(psprintf("It ends before \"%s\".", text_begin(excess)), "Give several polygons as one MultiPolygon.");
 	if (srid != 0)
 		GEOSSetSRID_r(geos->handle, geometry, srid);
 	return geometry;

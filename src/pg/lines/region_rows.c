@@ -11,6 +11,8 @@
 #include "utils/lsyscache.h"
 #include "utils/memutils.h"
 
+#include "pg/base/text_begin.h"
+#include "pg/geos/area_text.h"
 #include "pg/lines/line_values.h"
 #include "pg/lines/region_rows.h"
 
@@ -125,6 +127,12 @@ read_row(RegionReader *reader, HeapTuple tuple)
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
 				 errmsg("the region of row " UINT64_FORMAT " has an empty name", reader->row),
 				 errhint("Name each region.")));
+	if (area_text_is(region))
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+				 errmsg("the region of row " UINT64_FORMAT " is named like a geometry", reader->row),
+				 errdetail("Questions within \"%s\" would be about that polygon.", text_begin(region)),
+				 errhint("Put a word before the name.")));
 	values[REGION_ROW_REGION] = CStringGetTextDatum(region);
 	isnull[REGION_ROW_REGION] = false;
 	if (reader->are_seeds)

@@ -177,8 +177,8 @@ border_line(Writer *writer, const abacus_region_fault *fault)
 {
 	Oid			types[] = {FLOAT8OID, FLOAT8OID, FLOAT8OID, FLOAT8OID};
 	Datum		ends[] = {
-		Float8GetDatum(fault->place[0]), Float8GetDatum(fault->place[1]),
-		Float8GetDatum(fault->end[0]), Float8GetDatum(fault->end[1])
+		Float8GetDatum(fault->edge[0][0]), Float8GetDatum(fault->edge[0][1]),
+		Float8GetDatum(fault->edge[1][0]), Float8GetDatum(fault->edge[1][1])
 	};
 	char	   *table = lines_table_name(lines_table_require(mesh_of(writer), MESH_WRITE));
 
@@ -227,6 +227,7 @@ mesh_regions_refuse(Writer *writer, const abacus_region_fault *fault)
 			ereport(ERROR,
 					(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
 					 errmsg("seed %s of region \"%s\" is on a fixed edge", place, region),
+					 fault->has_line ? errdetail("It is one of line " INT64_FORMAT ".", fault->line) : 0,
 					 errhint("Place it inside of the region.")));
 			break;
 		case ABACUS_REGION_LEAK:
@@ -242,7 +243,9 @@ mesh_regions_refuse(Writer *writer, const abacus_region_fault *fault)
 					(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
 					 errmsg("regions \"%s\" and \"%s\" overlap", region,
 							regions_table_region(mesh, MESH_WRITE, fault->other)),
-					 errdetail("A triangle at %s would be in both.", place),
+					 fault->has_line
+					 ? errdetail("A triangle at %s beside line " INT64_FORMAT " would be in both.", place, fault->line)
+					 : errdetail("A triangle at %s would be in both.", place),
 					 errhint("Give the inner region to the outer one as a hole, or remove it with "
 							 "abacus_unregion().")));
 			break;
@@ -251,7 +254,7 @@ mesh_regions_refuse(Writer *writer, const abacus_region_fault *fault)
 					(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
 					 errmsg("region \"%s\" ends at %s", region, border_line(writer, fault)),
 					 errdetail("Without its segment from %s to %s the region would have no border there.", place,
-							   place_in_words(fault->end)),
+							   place_in_words(fault->edge[1])),
 					 errhint("Remove the region first, with abacus_unregion().")));
 			break;
 	}

@@ -18,6 +18,7 @@
 #include "utils/lsyscache.h"
 #include "utils/rls.h"
 
+#include "pg/base/text_begin.h"
 #include "pg/mesh/lines_table.h"
 #include "pg/mesh/regions_table.h"
 #include "pg/mesh/new_table.h"
@@ -162,7 +163,7 @@ regions_table_find(Relation mesh, MeshAccess access, const char *region, abacus_
 	if (!found)
 		ereport(ERROR,
 				(errcode(ERRCODE_UNDEFINED_OBJECT),
-				 errmsg("mesh \"%s\" has no region \"%s\"", RelationGetRelationName(mesh), region),
+				 errmsg("mesh \"%s\" has no region \"%s\"", RelationGetRelationName(mesh), text_begin(region)),
 				 errhint("abacus_regions() lists the regions of a mesh.")));
 }
 

@@ -42,6 +42,13 @@ Point<2> ContourEdge::crossing(double level) const {
     return {std::lerp((*a)[0], (*b)[0], t), std::lerp((*a)[1], (*b)[1], t)};
 }
 
+Point<2> ContourEdge::crossing(double level, const Point<2> &from, const Point<2> &to) const {
+    Point<2> p = crossing(level);
+    for (int i = 0; i < 2; ++i)
+        p[i] = std::clamp(p[i], std::min(from[i], to[i]), std::max(from[i], to[i]));
+    return p;
+}
+
 ContourCorner meet(const ContourEdge &edge, int side, const ContourWindow &window,
                    const ContourLevels &levels) {
     const int axis = ContourWindow::axis(side), other = 1 - axis;
@@ -138,7 +145,8 @@ ContourEnd ContourCut::end(int i, std::int64_t level, ContourKind kind) const {
     const int line = polygon_[i].line;
     if (line < 3) {
         const ContourEdge &edge = edges_[line];
-        return {edge.crossing(levels_.level(level)), {kind, edge.a, edge.b}};
+        return {edge.crossing(levels_.level(level), polygon_[i].place, next(i).place),
+                {kind, edge.a, edge.b}};
     }
     if (kind == ContourKind::crossing)
         kind = ContourKind::end;

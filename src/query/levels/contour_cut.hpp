@@ -98,6 +98,8 @@ struct ContourEdge {
     ContourEdge(const ContourPoint &p, double value_p, const ContourPoint &q, double value_q);
 
     Point<2> crossing(double level) const;
+    /// The same on the part between two places of the edge, which it does not leave by rounding.
+    Point<2> crossing(double level, const Point<2> &from, const Point<2> &to) const;
 };
 
 /// A corner of a polygon, and the line from there to the next one.

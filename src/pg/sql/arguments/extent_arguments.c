@@ -11,6 +11,7 @@
 #include "utils/lsyscache.h"
 #include "utils/memutils.h"
 
+#include "pg/base/text_begin.h"
 #include "pg/mesh/regions_table.h"
 #include "pg/sql/arguments/area_argument.h"
 #include "pg/geos/area_text.h"
@@ -76,7 +77,7 @@ region_of(const char *name, Oid mesh, const abacus_facts *facts, uint64 stamp)
 	if (facts->census.regions == 0)
 		ereport(ERROR,
 				(errcode(ERRCODE_UNDEFINED_OBJECT),
-				 errmsg("mesh \"%s\" has no region \"%s\"", get_rel_name(mesh), name),
+				 errmsg("mesh \"%s\" has no region \"%s\"", get_rel_name(mesh), text_begin(name)),
 				 errdetail("It has no regions."),
 				 errhint("Make regions with abacus_region(), or give a polygon as WKT.")));
 	if (stamp != 0 && last.stamp == stamp && last.mesh == mesh && last.user == GetUserId() &&

@@ -16,6 +16,7 @@
 #include "utils/array.h"
 #include "utils/builtins.h"
 
+#include "pg/geos/area_text.h"
 #include "pg/base/sql_function.h"
 #include "pg/mesh/mesh_cache.h"
 #include "pg/postgis/geometry_errors.h"
@@ -24,6 +25,7 @@
 #include "pg/sql/postgis/geometry_place.h"
 #include "pg/sql/rows/result.h"
 
+SQL_FUNCTION(abacus_sql_is_polygon);
 SQL_FUNCTION(abacus_sql_geometry_facts);
 SQL_FUNCTION(abacus_sql_geometry_corner);
 SQL_FUNCTION(abacus_sql_geometry_area);
@@ -98,6 +100,13 @@ abacus_sql_geometry_area(PG_FUNCTION_ARGS)
 		geometry_refuse_kind("the geometry", head.kind, "a Polygon or MultiPolygon");
 	geometry_check_srid(&facts->form, head.srid);
 	PG_RETURN_DATUM(PG_GETARG_DATUM(1));
+}
+
+/* _abacus_is_polygon(within text) -> boolean: whether it is a geometry, and not the name of a region */
+Datum
+abacus_sql_is_polygon(PG_FUNCTION_ARGS)
+{
+	PG_RETURN_BOOL(area_text_is(text_to_cstring(PG_GETARG_TEXT_PP(0))));
 }
 
 /* _abacus_place(mesh regclass, point geometry) -> float8[]: its coordinates; NULL for an empty point */
