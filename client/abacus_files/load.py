@@ -52,7 +52,7 @@ class OctreeScript:
 class Script:
     """What psql is sent, in pieces of (rows, text). Names and texts come by way of statement(), where psql does not look into them."""
 
-    def __init__(self, mesh, found, groups, retriangulate, split_nodes, inherit):
+    def __init__(self, mesh, found, groups, retriangulate, split_nodes, inherit=False):
         self.mesh, self.found, self.groups = mesh, found, groups
         self.options = {"retriangulate": retriangulate, "split_nodes": split_nodes, "inherit": inherit}
         self.axes = "xyz"[: found.dimension]

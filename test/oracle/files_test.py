@@ -244,7 +244,7 @@ class Files(unittest.TestCase):
         for options, inherited in ([], "NULL"), (["--inherit"], "5"):
             done = run("abacus-import", "--retriangulate", *options, self.at / "f.msh", "files_gmsh_anew")
             self.assertEqual(done.returncode, 0, done.stderr)
-            self.assertIn("Of 3 triangles with labels, 2 are not in the new one. Of 2 facets with markers, 0 are not in the new one.", done.stderr)
+            self.assertIn("Of 3 triangles with labels the new one lacks 2. Of 2 facets with markers it lacks 0.", done.stderr)
             self.assertEqual(abacus.rows("SELECT labels, count(*) FROM abacus_cells('files_gmsh_anew') GROUP BY labels ORDER BY labels"),
                              sorted([["{0}", "1"], [f"{{{inherited}}}", "2"]]))
             self.assertEqual(abacus.rows("SELECT marker, v0, v1 FROM abacus_facets('files_gmsh_anew') ORDER BY v0"), [["77", "10", "20"], ["77", "20", "50"]])

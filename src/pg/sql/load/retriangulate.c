@@ -28,10 +28,10 @@ carried_in_words(const abacus_form *form, const Carried *carried)
 
 	initStringInfo(&words);
 	if (carried->labelled > 0)
-		appendStringInfo(&words, " Of " UINT64_FORMAT " %s with labels, " UINT64_FORMAT " are not in the new one.",
+		appendStringInfo(&words, " Of " UINT64_FORMAT " %s with labels the new one lacks " UINT64_FORMAT ".",
 						 carried->labelled, form->dimension == 2 ? "triangles" : "tetrahedra", carried->lost);
 	if (carried->facets > 0)
-		appendStringInfo(&words, " Of " UINT64_FORMAT " facets with markers, " UINT64_FORMAT " are not in the new one.",
+		appendStringInfo(&words, " Of " UINT64_FORMAT " facets with markers it lacks " UINT64_FORMAT ".",
 						 carried->facets, carried->facets - carried->kept);
 	return words.data;
 }
