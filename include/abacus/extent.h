@@ -18,7 +18,8 @@ typedef struct abacus_extent
 {
 	double max_edge;   /* simplices without a longer edge; 0 or infinity: any */
 	uint32_t region;   /* those in the region with this number; 0: any */
-	int32_t has_box;   /* 1: all of the region lies in the box from `lower` to `upper` */
+	int32_t has_box;   /* 1: what counts lies in the box from `lower` to `upper`; pages beyond it
+						  need not be read */
 	double lower[2];
 	double upper[2];
 	const abacus_area *area; /* those that have a part in it; lines, areas and values end at its

@@ -17,13 +17,13 @@ COMMENT ON FUNCTION abacus_drape(regclass, geometry, text, boolean, text, double
 CREATE FUNCTION _abacus_is_polygon(within text)
 RETURNS boolean
 AS 'MODULE_PATHNAME', 'abacus_sql_is_polygon'
-LANGUAGE C IMMUTABLE STRICT PARALLEL SAFE;
+LANGUAGE C STABLE STRICT PARALLEL SAFE;
 COMMENT ON FUNCTION _abacus_is_polygon(text) IS
     'internal: whether a text is a geometry as WKT, EWKT or hexadecimal EWKB, and not the name of a region';
 
 CREATE FUNCTION _abacus_part_within(area geometry, within text)
 RETURNS geometry
-LANGUAGE sql IMMUTABLE PARALLEL SAFE
+LANGUAGE sql STABLE PARALLEL SAFE
 BEGIN ATOMIC
     SELECT CASE WHEN _abacus_is_polygon(within)
                 THEN ST_CollectionExtract(ST_Intersection(area, ST_SetSRID(within::geometry, ST_SRID(area))), 3)

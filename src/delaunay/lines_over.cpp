@@ -1,5 +1,7 @@
 #include "delaunay/lines_over.hpp"
 
+#include <algorithm>
+
 namespace abacus {
 
 template <class Visit>
@@ -23,8 +25,8 @@ template <class Visit> void LinesOver::each(const Point<2> &a, const Point<2> &b
 std::optional<std::int64_t> LinesOver::find(const Point<2> &a, const Point<2> &b) {
     std::optional<std::int64_t> line;
     each(a, b, [&](const abacus_segment_end &segment) {
-        line = segment.line;
-        return false;
+        line = std::min(line.value_or(segment.line), segment.line);
+        return true;
     });
     return line;
 }

@@ -15,7 +15,8 @@ class LinesOver {
 public:
     LinesOver(Delaunay<2> &mesh, LineSource &lines) : mesh_(mesh), lines_(lines) {}
 
-    /// A line with a segment over the edge between two vertices; nothing if there is none.
+    /// The least of the lines with a segment over the edge between two vertices; nothing if there
+    /// is none.
     std::optional<std::int64_t> find(const Point<2> &a, const Point<2> &b);
     /// The kind of that edge, by the lines over it.
     Fixed kind(const Point<2> &a, const Point<2> &b);

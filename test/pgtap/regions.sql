@@ -57,17 +57,18 @@ SELECT pg_temp.refused($$SELECT abacus_region('field', 'SELECT ''a'', true, 1')$
 SELECT pg_temp.refused($$SELECT abacus_region('field', 'VALUES (''a'', 1), (NULL, 1)')$$, '22004', 'the region of row 2 is NULL');
 SELECT pg_temp.refused($$SELECT abacus_region('field', 'VALUES (''a'', 1), (''a'', NULL)')$$, '22004', 'the line of row 2 is NULL');
 SELECT pg_temp.refused($$SELECT abacus_region('field', 'VALUES ('''', 1)')$$, '22023', 'the region of row 1 has an empty name');
+SELECT pg_temp.refused($$SELECT abacus_region('field', 'VALUES (''POINT (1 1)'', 1)')$$, '22023', 'the region of row 1 is named like a geometry', 'Questions within "POINT (1 1)" would be about that polygon.');
 SELECT pg_temp.refused($$SELECT abacus_region('field', 'SELECT ''a'', 1, ''NaN''::float8')$$, '22023', 'y of row 1 is NaN');
 SELECT pg_temp.refused($$SELECT abacus_region('field', 'SELECT ''a'', ''Infinity''::float8, 1')$$, '22023', 'x of row 1 is infinite');
 SELECT pg_temp.refused($$SELECT abacus_region('field', 'VALUES (''a'', 1), (''b'', 100)')$$, '22023', 'the mesh has no line 100', 'It is an outline of region "b".');
 -- outlines and seeds that make no region
 SELECT pg_temp.refused($$SELECT abacus_region('field', 'VALUES (''a'', 7)')$$, '22023', 'outline of region "a" is not closed', 'An odd number of its edges meets at (1, 8), where line 7 has a point.');
-SELECT pg_temp.refused($$SELECT abacus_region('field', 'VALUES (''a'', 1), (''b'', 2)')$$, '22023', 'regions "b" and "a" overlap', 'A triangle at (2, 2) would be in both.');
-SELECT pg_temp.refused($$SELECT abacus_region('field', 'VALUES (''b'', 1), (''a'', 2)')$$, '22023', 'regions "b" and "a" overlap', 'A triangle at (2, 2) would be in both.');
+SELECT pg_temp.refused($$SELECT abacus_region('field', 'VALUES (''a'', 1), (''b'', 2)')$$, '22023', 'regions "b" and "a" overlap', 'A triangle at (2, 2) beside line 2 would be in both.');
+SELECT pg_temp.refused($$SELECT abacus_region('field', 'VALUES (''b'', 1), (''a'', 2)')$$, '22023', 'regions "b" and "a" overlap', 'A triangle at (2, 2) beside line 2 would be in both.');
 SELECT throws_like($$SELECT abacus_region('field', 'VALUES (''a'', 8.5, 5)')$$, 'region "a" leaks to the hull of mesh "field"');
 SELECT pg_temp.refused($$SELECT abacus_region('field', 'VALUES (''a'', 10, 5)')$$, '22023', 'seed (10, 5) of region "a" is outside of mesh "field"');
-SELECT pg_temp.refused($$SELECT abacus_region('field', 'VALUES (''a'', 2, 3.5)')$$, '22023', 'seed (2, 3.5) of region "a" is on a fixed edge');
-SELECT pg_temp.refused($$SELECT abacus_region('field', 'VALUES (''a'', 2, 2)')$$, '22023', 'seed (2, 2) of region "a" is on a fixed edge');
+SELECT pg_temp.refused($$SELECT abacus_region('field', 'VALUES (''a'', 2, 3.5)')$$, '22023', 'seed (2, 3.5) of region "a" is on a fixed edge', 'It is one of line 2.');
+SELECT pg_temp.refused($$SELECT abacus_region('field', 'VALUES (''a'', 2, 2)')$$, '22023', 'seed (2, 2) of region "a" is on a fixed edge', 'It is one of line 2.');
 
 -- parity, and what is given twice
 SELECT is(abacus_region('field', $$VALUES ('fields', 1), ('fields', 2), ('fields', 3), ('fields', 1), ('fields', 6), ('fields', 8), ('wood', 4), ('hut', 5)$$), 3::bigint, 'three regions');
@@ -77,7 +78,7 @@ SELECT is((SELECT count(*) FROM field_regions), 5::bigint, 'what was given twice
 SELECT is((SELECT string_agg(col_description('field_regions'::regclass, n), ';' ORDER BY n) FROM generate_series(1, 6) AS n),
           (SELECT string_agg(col_description('abacus_region_part'::regclass, n), ';' ORDER BY n) FROM generate_series(1, 6) AS n), 'columns of the table have comments, too');
 SELECT pg_temp.refused($$SELECT abacus_region('field', 'VALUES (''hut'', 5)')$$, '42710', 'the mesh already has a region "hut"');
-SELECT pg_temp.refused($$SELECT abacus_region('field', 'VALUES (''barn'', 5)')$$, '22023', 'regions "barn" and "hut" overlap', 'A triangle at (6, 6) would be in both.');
+SELECT pg_temp.refused($$SELECT abacus_region('field', 'VALUES (''barn'', 5)')$$, '22023', 'regions "barn" and "hut" overlap', 'A triangle at (6, 6) beside line 5 would be in both.');
 SELECT pg_temp.refused($$SELECT abacus_region('field', 'VALUES (''barn'', 7.5, 1.5)')$$, '22023', 'regions "barn" and "wood" overlap', 'A triangle at (7.5, 1.5) would be in both.');
 SELECT is(abacus_region('field', $$VALUES ('pond', 2.5, 2.5), ('pond', 4.5, 4.5)$$), 1::bigint, 'a seed, and another one in the same place');
 SELECT results_eq($$SELECT triangles, area FROM abacus_regions('field') WHERE region = 'pond'$$, $$VALUES (16::bigint, 8::float8)$$, 'fill the hole around the island');

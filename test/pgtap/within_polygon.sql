@@ -102,12 +102,37 @@ SELECT pg_temp.refused('POLYGON((0 0, 2 2, 2 0))', '22023', 'within is not a pol
 SELECT pg_temp.refused('POLYGON((0 0, 2 2', '22023', 'within is not a polygon that can be used', 'ParseException: Expected word but encountered end of stream');
 SELECT pg_temp.refused('LINESTRING(0 0, 2 2)', '22023', 'within is not a polygon that can be used', 'It is a LineString.', 'Give the name of a region, a Polygon or a MultiPolygon.');
 SELECT pg_temp.refused('POINT EMPTY', '22023', 'within is not a polygon that can be used', 'It is a Point.');
-SELECT pg_temp.refused('POLYGON((0 0, inf 0, 1 1, 0 0))', '22023', 'within is not a polygon that can be used', 'Invalid Coordinate[inf 0]');
+SELECT pg_temp.refused('POLYGON((0 0, inf 0, 1 1, 0 0))', '22023', 'within is not a polygon that can be used', 'A coordinate is not a finite number.');
 SELECT pg_temp.refused('0103000000', '42704', 'mesh "grid" has no region "0103000000"', 'It has no regions.');
 SELECT pg_temp.refused('010300000001000000ffffff7f', '22023', 'within is not a polygon that can be used', 'ParseException: Input buffer is smaller than requested object size');
 SELECT pg_temp.refused('polygon', '42704', 'mesh "grid" has no region "polygon"', 'It has no regions.');
 SELECT abacus_create('solid', 3);
 SELECT throws_ok($$SELECT * FROM abacus_cells('solid', within => 'POLYGON((0 0, 1 0, 1 1, 0 0))')$$, '22023', 'within is a polygon, but mesh "solid" has dimension 3');
+
+-- names that look like geometries, and what follows a polygon
+SELECT pg_temp.refused(name, '42704', format('mesh "grid" has no region "%s"', name), 'It has no regions.')
+    FROM (VALUES ('Point (north)'), ('TIN (existing)'), ('010020003000400050'), ('01030000'), ('polygon ()'), ('POINTER(1)'), ('SRID=1')) AS v (name);
+SELECT pg_temp.refused('POLYGON((0 0, 5 0, 5 5, 0 0))' || more, '22023', 'within is not a polygon that can be used', format('It ends before "%s".', ltrim(more)))
+    FROM (VALUES (',((10 10, 15 10, 15 15, 10 10))'), (' trailing'), (')'), ('POLYGON((1 1, 2 1, 2 2, 1 1))')) AS v (more);
+SELECT pg_temp.refused(g || g, '22023', 'within is not a polygon that can be used', format('It ends before "%s...".', left(g, 77)))
+    FROM (SELECT ST_AsEWKT(ST_MakeEnvelope(0, 0, 5, 5)) AS w, 'SRID=25832;POLYGON((0 0, 5 0, 5 5, 0 5, 0 0))'::geometry::text AS g) AS s;
+SELECT is((SELECT area FROM abacus_volume('grid', 0, within => g)), 25::float8, left(g, 30)) FROM (SELECT ST_MakeEnvelope(0, 0, 5, 5, 25832) AS e) AS s,
+    LATERAL (VALUES (e::text), (ST_Multi(e)::text), (ST_Force3DZ(e)::text), (ST_Force3DM(ST_Multi(e))::text), (ST_Force4D(e)::text), (encode(ST_AsBinary(ST_Force4D(ST_Multi(e)), 'XDR'), 'hex')),
+        (ST_AsText(ST_Force3DZ(e))), (ST_AsEWKT(ST_Multi(e))), (ST_AsEWKT(e) || E' \n'), (ST_AsText(e, 1))) AS v (g);
+SELECT pg_temp.refused(g, '22023', 'within is not a polygon that can be used', 'It is a CURVEPOLYGON.')
+    FROM (VALUES ('CURVEPOLYGON(CIRCULARSTRING(0 0, 4 0, 4 4, 0 4, 0 0))'), ('CURVEPOLYGON(CIRCULARSTRING(0 0, 4 0, 4 4, 0 4, 0 0))'::geometry::text)) AS v (g);
+
+-- bands in many boxes, whose corners are no doubles of the decimals that they are written with
+SELECT abacus_triangulate('steps', 'SELECT 100 * x + y AS id, x, y, (7 * x + 13 * y) % 11 AS h FROM generate_series(0, 20) AS x, generate_series(0, 20) AS y');
+SELECT is((SELECT count(*) FROM (SELECT ST_MakeEnvelope(0.1 * (i * 37 % 150), 0.1 * (i * 53 % 140), 0.1 * (i * 37 % 150) + 4.1, 0.1 * (i * 53 % 140) + 3.3) AS box FROM generate_series(1, 100) AS i) AS s,
+        LATERAL (SELECT sum(ST_Area(geom)) AS area, bool_and(ST_IsValid(geom)) AS valid FROM abacus_contours_geom('steps', 2.5, polygonize => true, within => box::text)) AS b
+    WHERE abs(b.area - ST_Area(box)) > 1e-9 OR NOT b.valid), 0::bigint, 'bands fill the polygon');
+SELECT is((SELECT count(*) FROM (SELECT ST_MakeEnvelope(0.1 * (i * 37 % 150), 0.1 * (i * 53 % 140), 0.1 * (i * 37 % 150) + 4.1, 0.1 * (i * 53 % 140) + 3.3) AS box FROM generate_series(1, 100) AS i) AS s,
+        LATERAL (SELECT sum(ST_Area(geom)) AS area FROM abacus_contours_geom('steps', 2.5, polygonize => true, bounds => box)) AS b
+    WHERE abs(b.area - ST_Area(box)) > 1e-9), 0::bigint, 'and a window');
+SELECT is((SELECT round(sum(ST_Area(geom))::numeric, 9) FROM abacus_contours_geom('steps', 2.5, polygonize => true, bounds => ST_MakeEnvelope(2.1, 2.1, 7.7, 9.9), within => 'POLYGON((5 0.3, 20 0.3, 20 20, 5 20, 5 0.3))')), round(2.7 * 7.8, 9), 'and both');
+SELECT is((SELECT count(*) FROM abacus_contours_geom('steps', 2.5, polygonize => true, bounds => ST_MakeEnvelope(2.1, 2.1, 4.7, 9.9), within => 'POLYGON((5 0.3, 20 0.3, 20 20, 5 20, 5 0.3))')), 0::bigint, 'or none, where they do not meet');
+SELECT is((SELECT round(sum(ST_Area(geom))::numeric, 9) FROM abacus_clip('steps', ST_MakeEnvelope(2, 2, 8, 8), within => 'POLYGON((3.5 3.1, 3.9 3.1, 3.9 3.2, 3.5 3.1))')), 0.02, 'triangles are clipped by both');
 
 -- lines of sight, pictures, tiles
 SELECT abacus_triangulate('ridge', 'SELECT id, x, y, CASE WHEN x = 10 THEN 9 ELSE 0 END AS h FROM point');

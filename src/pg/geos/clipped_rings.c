@@ -53,6 +53,15 @@ ring_set_clear(RingSet *set)
 }
 
 void
+ring_set_swap(RingSet *a, RingSet *b)
+{
+	RingSet		swapped = *a;
+
+	*a = *b;
+	*b = swapped;
+}
+
+void
 ring_set_end(RingSet *set)
 {
 	if (set->sizes != NULL)

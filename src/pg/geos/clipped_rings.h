@@ -19,6 +19,7 @@ typedef struct RingSet
 extern void ring_set_begin(RingSet *set);
 extern double *ring_set_add(RingSet *set, size_t points);
 extern void ring_set_clear(RingSet *set);
+extern void ring_set_swap(RingSet *a, RingSet *b);
 extern void ring_set_end(RingSet *set);
 extern void clip_rings(const RingSet *given, const char *polygon, RingSet *clipped);
 

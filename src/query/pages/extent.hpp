@@ -22,10 +22,10 @@ inline bool is_all(const abacus_extent &extent) {
     return !limits_edges(extent) && extent.region == no_region && extent.area == nullptr;
 }
 
-/// The box of the polygon or of the region, if it is known.
+/// A box around what counts, if one is known.
 inline std::optional<Box<2>> box_of(const abacus_extent &extent) {
     if (const Polygon *polygon = polygon_of(extent)) return polygon->box();
-    if (extent.region == no_region || extent.has_box == 0) return {};
+    if (extent.has_box == 0) return {};
     return Box<2>({extent.lower[0], extent.lower[1]}, {extent.upper[0], extent.upper[1]});
 }
 

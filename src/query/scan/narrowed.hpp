@@ -10,7 +10,7 @@
 
 namespace abacus {
 
-/// The box of the polygon or of the region, if there is no window.
+/// The box around what counts, if there is no window.
 template <int D> abacus_window narrowed(const abacus_window &window, const abacus_extent &extent) {
     const std::optional<Box<2>> box = D == 2 ? box_of(extent) : std::nullopt;
     if (!box || window.kind != ABACUS_NO_WINDOW || box->upper[0] < box->lower[0]) return window;

@@ -272,6 +272,7 @@ abacus_volume volume_between(const Host &host, const abacus_facts &facts,
     const Box<2> window = box_of<2>(surface.window);
     abacus_extent extent = surface.extent;
     extent.region = no_region; // regions are the mesh's own
+    extent.has_box = 0;
     Overlaps overlaps(other_host, other, other_attribute, extent, window, cache_bytes);
     // A small window needs only its own pages, not those of the hull.
     const abacus_window around =

@@ -108,10 +108,15 @@ put_contour(void *context, int64_t id, double value, int32_t closed, const doubl
 
 /* ---- Bands in a polygon ------------------------------------------------------------------- */
 
+/*
+ * Bands of whole triangles are cut by the polygon, and by the window as another one: so their rings are
+ * those of the mesh, which no rounding at a side can make invalid.
+ */
 typedef struct ClippedBands
 {
 	Answers    *answers;
 	const char *polygon;
+	const char *window;			/* NULL: there is none */
 	RingSet		band,			/* that is read */
 				clipped;
 	int64		given,			/* its number */
@@ -127,6 +132,12 @@ end_band(ClippedBands *bands)
 
 	clip_rings(&bands->band, bands->polygon, &bands->clipped);
 	ring_set_clear(&bands->band);
+	if (bands->window != NULL)
+	{
+		clip_rings(&bands->clipped, bands->window, &bands->band);
+		ring_set_clear(&bands->clipped);
+		ring_set_swap(&bands->clipped, &bands->band);
+	}
 	path = bands->clipped.places;
 	if (bands->clipped.rings > 0)
 		bands->id++;
@@ -150,20 +161,48 @@ put_ring(void *context, int64_t id, double value, int32_t closed, const double *
 	return ABACUS_HOST_OK;
 }
 
+/* A window as a polygon. */
+static char *
+window_polygon(const abacus_window *window)
+{
+	const double *a = window->lower;
+	const double *b = window->upper;
+
+	return psprintf("POLYGON((%.17g %.17g,%.17g %.17g,%.17g %.17g,%.17g %.17g,%.17g %.17g))",
+					a[0], a[1], b[0], a[1], b[0], b[1], a[0], b[1], a[0], a[1]);
+}
+
+/* Gives an extent the box in which the polygon and the window meet; false if they do not. */
+static bool
+narrow(abacus_extent *extent, const abacus_window *window)
+{
+	if (!abacus_area_box(extent->area, extent->lower, extent->upper))
+		return false;
+	for (int i = 0; i < 2 && window->kind != ABACUS_NO_WINDOW; i++)
+	{
+		extent->lower[i] = Max(extent->lower[i], window->lower[i]);
+		extent->upper[i] = Min(extent->upper[i], window->upper[i]);
+	}
+	extent->has_box = 1;
+	extent->area = NULL;
+	return extent->lower[0] <= extent->upper[0] && extent->lower[1] <= extent->upper[1];
+}
+
 static void
 put_bands_within(Reader *reader, const abacus_window *window, const abacus_contouring *how, const char *polygon,
 				 Answers *answers)
 {
+	static const abacus_window none = {0};
 	ClippedBands bands = {.answers = answers, .polygon = polygon};
 	abacus_contouring whole = *how;
-	abacus_window around = *window;
 
-	if (window->kind == ABACUS_NO_WINDOW && abacus_area_box(how->extent.area, around.lower, around.upper))
-		around.kind = ABACUS_BOX_WINDOW;
+	if (!narrow(&whole.extent, window))
+		return;
+	if (window->kind != ABACUS_NO_WINDOW)
+		bands.window = window_polygon(window);
 	ring_set_begin(&bands.band);
 	ring_set_begin(&bands.clipped);
-	whole.extent.area = NULL;
-	host_run(reader->host, abacus_contours, &reader->host->table, &reader->header.facts, &around, &whole,
+	host_run(reader->host, abacus_contours, &reader->host->table, &reader->header.facts, &none, &whole,
 			 setting_query_sort_bytes() + setting_cache_bytes(), put_ring, &bands);
 	end_band(&bands);
 	ring_set_end(&bands.band);
