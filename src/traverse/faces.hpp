@@ -9,8 +9,8 @@
 // lesser one, so straight on towards lesser x the face goes on, up to another fixed edge. That is
 // on the outer walk, or on an inner one whose least vertex is less.
 //
-// The least vertex of a walk shows which kind it is. An outer walk has the face on the greater side of it. If
-// the face comes round that vertex on the lesser side as well, the walk is an inner one.
+// The least vertex of a walk shows which kind it is. An outer walk has the face on the greater side
+// of it. If the face comes round that vertex on the lesser side as well, the walk is an inner one.
 #pragma once
 
 #include "host/arena.hpp"
