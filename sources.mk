@@ -400,6 +400,7 @@ PG_SOURCES += src/pg/sql/postgis/fn_geometry_nest.c
 PG_SOURCES += src/pg/sql/postgis/fn_geometry_place.c
 PG_SOURCES += src/pg/sql/postgis/geometry_place.c
 PG_SOURCES += src/pg/sql/postgis/geometry_rings.c
+PG_SOURCES += src/pg/sql/postgis/geometry_sides.c
 PG_SOURCES += src/pg/sql/query/fn_locate.c
 PG_SOURCES += src/pg/sql/query/fn_nearest.c
 PG_SOURCES += src/pg/sql/query/fn_places.c

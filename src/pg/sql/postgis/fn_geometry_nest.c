@@ -304,6 +304,7 @@ abacus_sql_geometry_nest(PG_FUNCTION_ARGS)
 	if (head.kind != GEOMETRY_MULTILINE)
 		geometry_refuse_kind("the geometry", head.kind, "a MultiLineString");
 	read_rings(&given, &bytes);
+	given = rings_touching(&given);
 	nesting.rings = rings_traced(&given);
 	nesting.edges = palloc(nesting.room * sizeof(Edge));
 	sweep(&nesting);

@@ -35,5 +35,6 @@ extern void rings_begin_one(Rings *rings);
 extern void rings_add_place(Rings *rings, const double *place);
 extern void rings_end_one(Rings *rings);
 extern Rings rings_traced(const Rings *given);
+extern Rings rings_touching(const Rings *given);
 
 #endif
