@@ -31,6 +31,7 @@ my %calls = (
 	_abacus_lower => "SELECT _abacus_lower('field', $window)",
 	_abacus_upper => "SELECT _abacus_upper('field', $window)",
 	_abacus_pixels => "SELECT _abacus_pixels('field', ST_MakeEmptyRaster(6, 5, ST_X(p), 20, 1, 1, 0.1, 0.1, 0), 'z', 'linear', 'null', NULL, NULL)",
+	_abacus_part_within => "SELECT _abacus_part_within($window, 'POLYGON((0 0, 50 0, 50 50, 0 0))')",
 	abacus_raster => "SELECT abacus_raster('field', ST_MakeEmptyRaster(6, 5, ST_X(p), 20, 1, -1, 0, 0, 0))",
 	abacus_visible => "SELECT abacus_visible('field', '{50,50}'::text, '{53,53}'::text)",
 	abacus_cells_geom => "SELECT abacus_cells_geom('field', $window)",
