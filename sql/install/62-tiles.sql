@@ -78,9 +78,11 @@ CREATE FUNCTION abacus_tiles(
     edges boolean DEFAULT true,
     max_edge double precision DEFAULT NULL,
     size integer DEFAULT 256,
-    within text DEFAULT NULL)
+    within text DEFAULT NULL,
+    regions boolean DEFAULT false,
+    lines boolean DEFAULT false)
 RETURNS SETOF regprocedure
 AS 'MODULE_PATHNAME', 'abacus_sql_tiles'
 LANGUAGE C VOLATILE PARALLEL UNSAFE COST 100000 ROWS 4;
-COMMENT ON FUNCTION abacus_tiles(regclass, integer, double precision[], text, double precision[], double precision, text, double precision, boolean, double precision, integer, text) IS
-    'makes functions that tile servers call: <mesh>_picture, <mesh>_vector and <mesh>_terrain for Martin, <mesh>_mvt for pg_tileserv. Returns them. within is the name of a region of the mesh, or a polygon as WKT, EWKT or hexadecimal EWKB; all else is as outside of the mesh. Shapes: world is {x, y, side}; range is {first, last}. Units: size in pixels; world and max_edge in those of the coordinates; range and contours in those of the attribute. Errors: those of abacus_tile_picture; 42622 too long a name, 42501 no right to make functions; 42704 no such region';
+COMMENT ON FUNCTION abacus_tiles(regclass, integer, double precision[], text, double precision[], double precision, text, double precision, boolean, double precision, integer, text, boolean, boolean) IS
+    'makes functions that tile servers call: <mesh>_picture, <mesh>_vector and <mesh>_terrain for Martin, <mesh>_mvt for pg_tileserv. Returns them. within is the name of a region of the mesh, or a polygon as WKT, EWKT or hexadecimal EWKB; all else is as outside of the mesh. regions and lines are those of abacus_tile_picture. Shapes: world is {x, y, side}; range is {first, last}. Units: size in pixels; world and max_edge in those of the coordinates; range and contours in those of the attribute. Errors: those of abacus_tile_picture; 42622 too long a name, 42501 no right to make functions; 42704 no such region';

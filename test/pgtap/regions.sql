@@ -129,6 +129,10 @@ SELECT isnt(abacus_tile_vector('field', 0, 0, 0, world => '{0,0,10}', within => 
 SELECT isnt(abacus_tile_terrain('field', 0, 0, 0, world => '{0,0,10}', within => 'hut'), abacus_tile_terrain('field', 0, 0, 0, world => '{0,0,10}'), 'tiles');
 SELECT is((SELECT count(*) FROM abacus_tiles('field', world => '{0,0,10}', within => 'hut')), 4::bigint, 'functions for tiles of a region');
 SELECT is((SELECT tile FROM field_picture(0, 0, 0)), (SELECT abacus_tile_picture('field', 0, 0, 0, world => '{0,0,10}', size => 256, attribute => 'h', range => (SELECT ARRAY[least, greatest] FROM abacus_attributes('field')), within => 'hut')), 'which draw it');
+SELECT isnt((SELECT tile FROM field_picture(0, 0, 0, q)), (SELECT tile FROM field_picture(0, 0, 0)), q::text) FROM (VALUES ('{"regions": true}'::json), ('{"lines": true}')) AS v (q);
+CREATE TEMP TABLE shown AS SELECT tile FROM field_picture(0, 0, 0, '{"regions": true, "lines": true}');
+SELECT is((SELECT count(*) FROM abacus_tiles('field', world => '{0,0,10}', within => 'hut', regions => true, lines => true)), 4::bigint, 'or they show them as a rule');
+SELECT is((SELECT tile FROM field_picture(0, 0, 0)), (SELECT tile FROM shown), 'the same tile');
 SELECT throws_ok($$SELECT * FROM abacus_tiles('field', world => '{0,0,10}', within => 'zoo')$$, '42704', 'mesh "field" has no region "zoo"');
 SELECT throws_ok($$SELECT abacus_interpolate('field', 1, 1, within => 'zoo')$$, '42704', 'mesh "field" has no region "zoo"');
 

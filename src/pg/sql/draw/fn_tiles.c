@@ -37,7 +37,9 @@ enum
 	TILES_EDGES,
 	TILES_MAX_EDGE,
 	TILES_SIZE,
-	TILES_WITHIN
+	TILES_WITHIN,
+	TILES_REGIONS,
+	TILES_LINES
 };
 
 /* The parts of the functions as SQL; what is not given is NULL. */
@@ -57,6 +59,8 @@ typedef struct Tiles
 	const char *edges;
 	const char *max_edge;
 	const char *within;
+	const char *regions;
+	const char *lines;
 	const char *srid;
 	const char *fill;			/* the height outside the mesh */
 	int32		size;
@@ -199,6 +203,8 @@ make_all(const Tiles *tiles, bool has_attribute)
 {
 	const char *contours = "NULL::float8";
 	const char *ramp = "NULL::text";
+	const char *regions = psprintf("coalesce((query_params ->> 'regions')::boolean, %s)", tiles->regions);
+	const char *lines = psprintf("coalesce((query_params ->> 'lines')::boolean, %s)", tiles->lines);
 
 	if (has_attribute)
 	{
@@ -206,10 +212,10 @@ make_all(const Tiles *tiles, bool has_attribute)
 		ramp = psprintf("coalesce(query_params ->> 'ramp', %s)", tiles->ramp);
 	}
 	make_with_etag(tiles, "picture",
-				   psprintf("%s.abacus_tile_picture(%s, z, x, y, %s, %s, %d, %s, %s, %s, %s, %s, %s, %s, %s)",
+				   psprintf("%s.abacus_tile_picture(%s, z, x, y, %s, %s, %d, %s, %s, %s, %s, %s, %s, %s, %s, %s, %s)",
 							tiles->extension, tiles->mesh, tiles->srid, tiles->world, tiles->size,
 							tiles->attribute, tiles->range, tiles->edges, tiles->exaggeration,
-							tiles->max_edge, ramp, contours, tiles->within),
+							tiles->max_edge, ramp, contours, tiles->within, regions, lines),
 				   "{\"content_type\": \"image/png\", \"description\": \"A mesh as pictures\"}");
 	make_with_etag(tiles, "vector", vector_body(tiles, contours),
 				   "{\"content_type\": \"application/x-protobuf\", \"description\": \"A mesh: triangles, vertices, contours, fixed, hull\"}");
@@ -228,16 +234,16 @@ make_all(const Tiles *tiles, bool has_attribute)
 static void
 try_arguments(const Tiles *tiles)
 {
-	run(psprintf("SELECT %s.abacus_tile_picture(%s, 30, 0, 0, %s, %s, %d, %s, %s, %s, %s, %s, %s, %s, %s)",
+	run(psprintf("SELECT %s.abacus_tile_picture(%s, 30, 0, 0, %s, %s, %d, %s, %s, %s, %s, %s, %s, %s, %s, %s, %s)",
 				 tiles->extension, tiles->mesh, tiles->srid, tiles->world, tiles->size, tiles->attribute,
 				 tiles->range, tiles->edges, tiles->exaggeration, tiles->max_edge, tiles->ramp,
-				 tiles->contours, tiles->within));
+				 tiles->contours, tiles->within, tiles->regions, tiles->lines));
 }
 
 /*
  * abacus_tiles(mesh regclass, srid int, world float8[], attribute text, range float8[],
  * contours float8, ramp text, exaggeration float8, edges boolean, max_edge float8,
- * size int, within text) -> setof regprocedure
+ * size int, within text, regions boolean, lines boolean) -> setof regprocedure
  */
 Datum
 abacus_sql_tiles(PG_FUNCTION_ARGS)
@@ -281,6 +287,8 @@ abacus_sql_tiles(PG_FUNCTION_ARGS)
 	tiles.world = world_literal(fcinfo);
 	tiles.ramp = text_literal(fcinfo, TILES_RAMP);
 	tiles.within = text_literal(fcinfo, TILES_WITHIN);
+	tiles.regions = !PG_ARGISNULL(TILES_REGIONS) && PG_GETARG_BOOL(TILES_REGIONS) ? "true" : "false";
+	tiles.lines = !PG_ARGISNULL(TILES_LINES) && PG_GETARG_BOOL(TILES_LINES) ? "true" : "false";
 	tiles.edges = PG_ARGISNULL(TILES_EDGES) || PG_GETARG_BOOL(TILES_EDGES) ? "true" : "false";
 	tiles.srid = PG_ARGISNULL(TILES_SRID) ? "NULL::integer" :
 		psprintf("%d", PG_GETARG_INT32(TILES_SRID));
