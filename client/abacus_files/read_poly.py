@@ -115,7 +115,7 @@ def read(path):
     names = list(data)
     if said.attributes is not None:
         if len(said.attributes) != len(names):
-            raise Failed(f"has {len(names)} attributes, but a comment names {len(said.attributes)}")
+            raise Failed(f"has {counted(len(names), 'attribute')}, but a comment names {len(said.attributes)}")
         data = dict(zip(said.attributes, data.values()))
     plan = Plan()
     plan.take(lines_of(segments(rows, Places(ids, line_of)), said))

@@ -118,7 +118,7 @@ class Poly(abacus.InFolder):
         abacus.psql("SELECT abacus_mark('poly_lost', $$SELECT code, v0, v1, v2, facet, 8 FROM abacus_cells('poly_lost'), LATERAL (VALUES (0, v1, v2), (1, v0, v2), (2, v0, v1)) "
                     "AS side (facet, p, q) WHERE least(p, q) = 1 AND greatest(p, q) = 8$$)")
         path = self.at / "lost.poly"
-        lost = "markers of 2 edges, which are not those of whole segments of lines"
+        lost = "markers of 2 edges (only whole segments of lines have markers)"
         done = run("abacus-export", "poly_lost", path)
         self.assertEqual((done.returncode, done.stderr), (0, f"abacus-export: {path} does not hold {lost}\n"))
         path.unlink()
@@ -126,12 +126,12 @@ class Poly(abacus.InFolder):
         self.assertEqual((done.returncode, done.stderr), (1, f"abacus-export: {path} would not hold {lost}\n"))
         self.assertEqual([entry.name for entry in self.at.glob("lost*")], [])
         done = run("abacus-export", "poly_lost", self.at / "lost.ply")
-        self.assertIn("lines, to which 10 edges belong, and that these are fixed; regions (", done.stderr)
+        self.assertIn("lines, which fix 10 edges; regions (", done.stderr)
 
     def test_a_loaded_mesh_has_other_triangles(self):
         abacus.psql("DROP TABLE IF EXISTS poly_loaded, poly_loaded_vertices")
         abacus.psql("SELECT abacus_load('poly_loaded', 'VALUES (1, 0, 0), (2, 9, 1), (3, 10, 9), (4, 0, 1)', 'VALUES (1, 2, 3), (1, 3, 4)')")
-        self.assertIn("its 2 triangles, which are not those that points and lines give", run("abacus-export", "poly_loaded", self.at / "loaded.poly").stderr)
+        self.assertIn("its triangles (2): its points and lines make others", run("abacus-export", "poly_loaded", self.at / "loaded.poly").stderr)
 
     def test_points_beside_it(self):
         head, _, tail = POLY.partition("\n\n")
