@@ -1,6 +1,7 @@
 """A mesh as chunks of arrays: what all writers are given."""
 import numpy
 
+from .english import counted
 from .psql import Failed, literal
 
 
@@ -17,6 +18,14 @@ def unlike(names, taken):
 
 def no_coordinate(attribute):
     return f"{attribute} is missing or infinite at some vertices, so it cannot be the third coordinate"
+
+
+def find(session, name):
+    """Fails if there is no such mesh; an error of the server's would show the query."""
+    if not session.all("SELECT 1::int8 FROM pg_extension WHERE extname = 'abacus'", ["int8"]):
+        raise Failed("the database does not have the extension abacus")
+    if not session.all(f"SELECT 1::int8 WHERE to_regclass({literal(name)}) IS NOT NULL", ["int8"]):
+        raise Failed(f"there is no mesh {name}")
 
 
 def figures(session, sql, names):
@@ -79,14 +88,14 @@ class Mesh:
             (lines,), = self.session.all(f"SELECT count(*) FROM abacus_edges({self.sql}, fixed => true{within})", ["int8"])
             regions = self.region_names()
         return [text for what, count, text in (
-            ("repeated", self.repeated, f"{self.repeated} points that equal a vertex"), ("waiting", self.waiting, f"{self.waiting} points that wait to be inserted"),
-            ("lines", lines, f"lines, to which {lines} edges belong, and that these are fixed"),
+            ("repeated", self.repeated, counted(self.repeated, 'point at the place of a vertex', 'points at places of vertices')), ("waiting", self.waiting, f"{counted(self.waiting, 'point')} waiting to be inserted"),
+            ("lines", lines, f"lines, which fix {counted(lines, 'edge')}"),
             ("regions", len(regions), f"regions ({', '.join(regions)}){self.but}"), ("srid", self.srid, f"the SRID {self.srid}")) if count > 0 and what not in holds]
 
     def not_delaunay(self):
         """What a file of points and lines loses of a mesh that was made elsewhere, as texts."""
         changeable, = figures(self.session, self.sql, ("changeable",))
-        return [] if changeable else [f"its {self.simplices} triangles, which are not those that points and lines give"]
+        return [] if changeable else [f"its triangles ({self.simplices}): its points and lines make others"]
 
     def of_label(self, n, greatest):
         """Whether the numbers of a label are whole and not beyond this one; and how many simplices have none."""

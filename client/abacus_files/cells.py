@@ -2,6 +2,7 @@
 import numpy
 
 from .decimals import Axis
+from .english import counted
 from .psql import Failed
 
 types, usual = {"z": "float8"}, ("z",)
@@ -36,7 +37,7 @@ class Cells:
         return x[kept], numpy.full(int(kept.sum()), y), [values[kept]]
 
     def notes(self):
-        return [f"{count} cells {what}, and are left out" for count, what in ((self.missing, "have no data"), (self.wrong, "have no finite height")) if count]
+        return [f"left out: {counted(count, 'cell')} without {what}" for count, what in ((self.missing, "data"), (self.wrong, "a finite height")) if count]
 
 
 def joined(rows, size):

@@ -5,6 +5,7 @@ import struct
 
 PROJECTED, GEOGRAPHIC = 3072, 2048  # keys of GeoTIFF
 USER_DEFINED = 32767
+GREATEST = 999999  # that a mesh takes as its SRID
 SURE = 90  # of 100: as GDAL has it, all but the name is the same
 TOKEN = re.compile(r'"((?:[^"]|"")*)"|([A-Za-z_]\w*)\s*[\[(]|([\])])|([^\s,\[\]()"]+)')
 SYSTEM = re.compile("(PROJ|GEOG|GEOD|ENG|LOCAL)[A-Z]*(CS|CRS)|GEOGRAPHICCRS|GEODETICCRS|PROJECTEDCRS", re.IGNORECASE)
@@ -43,7 +44,7 @@ def code_of(node):
     for child in node[1]:
         if isinstance(child, list) and child[0] in ("AUTHORITY", "ID"):
             texts = [text for text in child[1] if isinstance(text, str)]
-            if len(texts) >= 2 and texts[0].upper() == "EPSG" and texts[1].isdigit():
+            if len(texts) >= 2 and texts[0].upper() == "EPSG" and texts[1].isdecimal() and int(texts[1]) <= GREATEST:
                 return int(texts[1])
     return 0
 

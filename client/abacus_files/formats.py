@@ -10,7 +10,8 @@ OF_SERIES = (*write_pvd.suffixes, *write_xdmf.suffixes)  # write a series of ste
 
 
 def writer(path):
-    """The module: write(mesh, file, z), lost(mesh, z), what the format cannot hold, and perhaps `holds`, what only few formats do (Mesh.unheld)."""
+    """The module: write(mesh, file, z), lost(mesh, z), what the format cannot hold, and perhaps `holds`, what only few formats do (Mesh.unheld), and
+    refusal(mesh, z), why it cannot have the mesh."""
     suffix = pathlib.Path(path).suffix.lower()
     if suffix not in WRITERS:
         raise Failed(f"{path}: the suffix is not that of a known format; known are {', '.join(sorted(WRITERS))}")

@@ -3,6 +3,7 @@ import re
 
 import numpy
 
+from .english import counted
 from .psql import Failed
 
 # What Gmsh, VTK and meshio call the cells that others have; a mesh takes triangles and tetrahedra.
@@ -54,14 +55,14 @@ class Grid:
             self.cells[kind] = self.checked(kind, numpy.asarray(corners))
         for kind, values in (*((kind, values) for (kind, _), values in self.labels.items()), *self.markers.items(), *self.codes.items()):
             if len(values) != len(self.cells[kind]):
-                raise Failed(f"has {len(self.cells[kind])} cells ({kind}), but {len(values)} numbers for them")
+                raise Failed(f"has {counted(len(self.cells[kind]), 'cell')} ({kind}), but {counted(len(values), 'number')} for them")
         for kind, values in self.markers.items():
             markers = numpy.asarray(values, dtype=float)
             wrong = (markers < -(1 << 31)) | (markers >= 1 << 31)
             if wrong.any():
                 raise Failed(f"{self.where(kind, int(numpy.flatnonzero(wrong)[0]))}a marker of a cell ({kind}) does not fit 32 bits")
         if self.ids is not None and len(self.ids) != len(points):
-            raise Failed(f"has {len(points)} points, but {len(self.ids)} ids")
+            raise Failed(f"has {counted(len(points), 'point')}, but {counted(len(self.ids), 'id')}")
         self.take_corners()
         self.check_data()
 
@@ -73,7 +74,7 @@ class Grid:
         wrong = (corners < 0) | (corners >= len(self.points))
         if wrong.any():
             where = self.where(kind, int(numpy.flatnonzero(wrong.any(axis=1))[0]))
-            raise Failed(f"{where}a cell ({kind}) has the corner {corners[wrong][0]}, but there are {len(self.points)} points, counted from 0")
+            raise Failed(f"{where}a cell ({kind}) has the corner {corners[wrong][0]}, but points are numbered from 0 to {len(self.points) - 1}")
         return corners.astype(numpy.int64)
 
     def take_corners(self):
@@ -97,7 +98,7 @@ class Grid:
         for name, values in self.data.items():
             values = numpy.asarray(values)
             if len(values) != len(self.points):
-                raise Failed(f"has {len(self.points)} points, but {len(values)} values of {name}")
+                raise Failed(f"has {counted(len(self.points), 'point')}, but {counted(len(values), 'value')} of {name}")
             columns = values.reshape(len(values), -1).T
             if values.dtype.kind not in "iufb" or len(columns) == 0:
                 left.append(name)

@@ -2,6 +2,7 @@
 import numpy
 
 from .arrays import unlike
+from .english import counted
 from .grid import SIMPLICES, SMALL
 from .psql import Failed
 
@@ -80,9 +81,9 @@ class Input:
 
     def say_facets(self, loose, other):
         if loose:
-            self.notes.append(f"{loose} marked facets are left out: no simplex has them")
+            self.notes.append(f"left out: {counted(loose, 'marked facet')} of no simplex")
         if other:
-            self.notes.append(f"{other} facets are marked once more, with another marker; the first one is taken")
+            self.notes.append(f"left out: another marker of {counted(other, 'facet')} (the first one is taken)")
 
     def say_what_is_left(self, grid, kind):
         left = {name: len(corners) for name, corners in grid.cells.items() if name != kind and len(corners)}
@@ -93,4 +94,4 @@ class Input:
             self.notes.append(f"cells that are neither {'tetrahedra' if kind == 'tetra' else 'triangles'} nor marked facets are left out: {', '.join(texts)}")
         unused = len(grid.points) - len(numpy.unique(self.simplices))
         if unused:
-            self.notes.append(f"{unused} points that belong to no {'tetrahedron' if kind == 'tetra' else 'triangle'} are left out")
+            self.notes.append(f"left out: {counted(unused, 'point')} of no {'tetrahedron' if kind == 'tetra' else 'triangle'}")

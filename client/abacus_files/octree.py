@@ -1,5 +1,5 @@
 """An octree or a quadtree as chunks of arrays, as writers take a mesh: its nodes, and its leaves as hexahedra or quadrangles."""
-from .arrays import Mesh, figures, table_of, unlike, values_of
+from .arrays import Mesh, figures, find, table_of, unlike, values_of
 from .part import Labelled, Part
 from .psql import Failed, literal
 
@@ -54,6 +54,7 @@ class Octree(Mesh):
 
 def opened(session, name, region=None, labels=False):
     """A mesh, a region of one, or an octree. `labels`: whether a file can say of triangles in which region they are."""
+    find(session, name)
     leaves, = figures(session, f"{literal(name)}::regclass", ("leaves",))
     if region is not None:
         if leaves >= 0:

@@ -2,6 +2,7 @@
 import numpy
 
 from .arrays import Mesh, unlike
+from .english import counted
 from .psql import Failed, literal
 
 LABEL = "region"
@@ -88,4 +89,4 @@ class Part(Asked):
         """Of a format with lines, those that go on beyond the region."""
         cut = self.session.all(f"SELECT count(DISTINCT line) FROM (SELECT unnest(lines) AS line FROM abacus_edges({self.sql}, fixed => true, {self.within})) AS inside "
                                f"WHERE line NOT IN ({self.whole_lines()})", ["int8"])[0][0] if "lines" in holds else 0
-        return super().unheld((*holds, "regions")) + ([f"{cut} lines that go on beyond the region"] if cut else [])
+        return super().unheld((*holds, "regions")) + ([f"{counted(cut, 'line')} extending beyond the region"] if cut else [])

@@ -9,6 +9,7 @@ import bisect
 import json
 import re
 
+from .epsg import GREATEST
 from .psql import Failed
 from .words import number
 
@@ -45,6 +46,8 @@ class Said:
                 raise ValueError
         elif word == "srid":
             self.srid = number(rest, int)
+            if not 0 <= self.srid <= GREATEST:
+                self.wrong()
         elif word == "line":
             found = LINE.fullmatch(rest)
             self.lines.append((n, int(found[1]), bool(found[2]), -1 if found[3] is None else int(found[3])) if found else self.wrong())

@@ -2,24 +2,19 @@
 import os
 import sys
 
-from . import apart, octree_input, read_2dm, read_landxml, read_medit, read_msh, read_npz, read_obj, read_off, read_other, read_ply, read_poly, read_tetgen, read_vtu, read_xdmf
+from . import apart, octree_input, read_2dm, read_landxml, read_medit, read_msh, read_npz, read_obj, read_off, read_other, read_ply, read_poly, read_tetgen, read_vtu, read_xdmf, xml_stream
 from .input import Input
 from .plan_input import PlanInput
 from .psql import Failed
 
 READERS = {suffix: module for module in (read_2dm, read_landxml, read_medit, read_msh, read_npz, read_obj, read_off, read_ply, read_poly, read_tetgen, read_vtu, read_xdmf)
            for suffix in module.suffixes}
-
-
-XML, HEAD = ".xml", 4096  # others write .xml, too
+DOLFIN = "dolfin"  # of FEniCS, writes .xml, too, which meshio reads
 
 
 def reader(path):
-    suffix = os.path.splitext(path)[1].lower()
-    if suffix == XML:
-        with open(path, "rb") as file:
-            return read_landxml if b"<LandXML" in file.read(HEAD).replace(b"\0", b"") else read_other
-    return READERS.get(suffix, read_other)
+    module = READERS.get(os.path.splitext(path)[1].lower(), read_other)
+    return read_other if module is read_landxml and xml_stream.root(path) == DOLFIN else module
 
 
 def read_here(path, keep_apart, surface=None):

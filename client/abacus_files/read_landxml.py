@@ -1,6 +1,10 @@
 """A surface of LandXML: points, faces, breaklines, contours and boundaries. In it, northing comes before easting."""
+import re
+
 import numpy
 
+from . import epsg
+from .english import counted
 from .grid import Grid
 from .landxml_surface import Surface
 from .plan import HOLE, Plan
@@ -12,6 +16,7 @@ suffixes = (".xml", ".landxml")
 METRES = ("meter", "metre")
 HOLES = ("void", "hide", "inner", "hole")
 Z = "z"
+EPSG = re.compile(r"(?:EPSG:+|urn:ogc:def:crs:EPSG:[^:]*:)?(\d+)", re.IGNORECASE)
 
 
 class File:
@@ -19,17 +24,14 @@ class File:
 
     def __init__(self, path, wanted):
         self.wanted, self.names, self.surface = wanted, [], None
-        self.unit, self.epsg, self.depth, self.open = None, None, 0, None
-        Stream(self.start, self.end).parse(path)
+        self.unit, self.epsg, self.open = None, None, None
+        Stream("LandXML", self.start, self.end).parse(path)
         if self.surface is None:
             raise Failed(f"has no surface {wanted}; it has: {', '.join(self.names) or 'none'}" if wanted is not None else "has no surfaces")
         if wanted is None and len(self.names) > 1:
             raise Failed(f"has several surfaces; name one by --surface: {', '.join(self.names)}")
 
     def start(self, name, attributes, line):
-        self.depth += 1
-        if self.depth == 1 and name != "LandXML":
-            raise Failed(f"line {line}: is not LandXML, but {name}")
         if name == "Surface":
             self.names.append(attributes.get("name", ""))
             if self.wanted in (None, self.names[-1]) and self.surface is None:
@@ -42,37 +44,57 @@ class File:
             self.open.start(name, attributes, line)
 
     def end(self, name, text, line):
-        self.depth -= 1
         if self.open:
             self.open.end(name, text, line)
             if name == "Surface":
                 self.open = None
 
 
+def shortest(value):
+    return repr(value).removesuffix(".0")
+
+
 class Points:
-    """The points of a surface, and those of its lines: one of a place is one."""
+    """The points of a surface, and those of its lines: one of a place is one, with the height that any of them has."""
 
     def __init__(self, surface):
         self.ids = numbers(surface.ids, int, surface.lines.__getitem__)
         table = numbers(surface.words, float, lambda n: surface.lines[n // 3]).reshape(-1, 3)
         self.places = Places(self.ids, surface.lines.__getitem__)
-        self.table, self.at, self.more = table, {}, []
-        for n, (north, east, _) in enumerate(table.tolist()):
-            self.at.setdefault((north, east), n)
+        self.points = [[*place, line] for place, line in zip(table.tolist(), surface.lines)]  # [northing, easting, elevation, line of the file]
+        self.at = {}
+        for n, point in enumerate(self.points):
+            self.agree(self.points[self.at.setdefault((point[0], point[1]), n)], point)
 
-    def place(self, north, east, elevation):
-        found = self.at.setdefault((north, east), len(self.table) + len(self.more))
-        if found == len(self.table) + len(self.more):
-            self.more.append((north, east, elevation))
-        elif found >= len(self.table) and numpy.isnan(self.more[found - len(self.table)][2]):
-            self.more[found - len(self.table)] = (north, east, elevation)
+    def agree(self, known, point):
+        """One of two points at a place may have no height; otherwise both have the same."""
+        if known[2] != known[2]:
+            known[2:] = point[2:]
+        elif point[2] == point[2] and point[2] != known[2]:
+            north, east, height, line = point
+            raise Failed(f"line {line}: the point at northing {shortest(north)}, easting {shortest(east)} has the height {shortest(height)}, "
+                         f"but in line {known[3]} it has the height {shortest(known[2])}")
+
+    def place(self, *point):
+        found = self.at.setdefault(point[:2], len(self.points))
+        if found == len(self.points):
+            self.points.append(list(point))
+        else:
+            self.agree(self.points[found], point)
         return found
 
+    def known(self, *point):
+        """Whether the point is one of those that are there."""
+        found = self.at.get(point[:2])
+        if found is not None:
+            self.agree(self.points[found], point)
+        return found is not None
+
     def all(self):
-        """Ids and places (easting, northing, elevation). Points that only lines have get ids above all others."""
-        table = numpy.concatenate([self.table, numpy.array(self.more).reshape(-1, 3)])
-        first = int(self.ids.max(initial=0)) + 1
-        return numpy.concatenate([self.ids, numpy.arange(first, first + len(self.more))]), table[:, [1, 0, 2]]
+        """Ids, places (easting, northing, elevation), and a function that says the line of one. Points that only lines have get ids above all others."""
+        first, more = int(self.ids.max(initial=0)) + 1, len(self.points) - len(self.ids)
+        table = numpy.array([point[:3] for point in self.points]).reshape(-1, 3)
+        return numpy.concatenate([self.ids, numpy.arange(first, first + more)]), table[:, [1, 0, 2]], lambda n: self.points[n][3]
 
 
 class Lines:
@@ -83,7 +105,7 @@ class Lines:
         names = [chain.attributes.get("name", "") for chain in chains]
         self.named = {name: int(name) for name in names if name.lstrip("-").isdecimal() and abs(int(name)) < 1 << 62}
         self.free = max([0, *self.named.values()]) + 1
-        self.unnamed = 0
+        self.unnamed = 0  # whose names are left out
 
     def add(self, chain, closed):
         """The number of a chain's line."""
@@ -119,7 +141,7 @@ def ours(chain, label, kind):
     return numbers(chain.properties.get(label, "").split(), kind, lambda _: chain.line).tolist()
 
 
-def regions_of(surface, lines):
+def regions_of(surface, lines, notes):
     """[name, line, x, y] of outlines and seeds. All boundaries of a surface are outlines of one region; those of ours say of which."""
     found, plain = [], []
     for chain in surface.chains["Boundary"]:
@@ -131,8 +153,12 @@ def regions_of(surface, lines):
         if not chain.properties:
             plain.append(chain)
     is_hole = plain and all(chain.attributes.get("bndType") in HOLES for chain in plain)
+    region = HOLE if is_hole else surface.name or "surface"
     for chain in plain:
-        found.append([HOLE if is_hole else surface.name or "surface", lines.add(chain, True), None, None])
+        found.append([region, lines.add(chain, True), None, None])
+    lost = sum(chain.attributes.get("name", "") not in ("", region) for chain in plain)
+    if lost:
+        notes.append(f"left out: {counted(lost, 'name of a boundary', 'names of boundaries')} (together they are the region {region})")
     return found
 
 
@@ -141,22 +167,25 @@ def notes_of(file, surface, lines):
     if file.unit is not None and file.unit.lower() not in METRES:
         notes.append(f"coordinates are in the unit {file.unit}, and stay so")
     if surface.hidden:
-        notes.append(f"{surface.hidden} faces that are not shown (i=1) are left out")
+        notes.append(f"left out: {counted(surface.hidden, 'face')} that the file does not show (i=1)")
     types = {chain.attributes.get("brkType", "standard") for chain in surface.chains["Breakline"]} - {"standard"}
     if types:
         notes.append(f"types of breaklines are left out: {', '.join(sorted(types))}; all become fixed edges")
     if lines.unnamed:
-        notes.append(f"names of {lines.unnamed} breaklines and contours are left out, as they are not numbers that differ")
+        notes.append(f"left out: {counted(lines.unnamed, 'name of a breakline or contour', 'names of breaklines and contours')} "
+                     "(only whole numbers that differ are kept)")
     if surface.left:
         notes.append(f"left out: {', '.join(f'{count} {name}' for name, count in surface.left.items())}")
     return notes
 
 
 def srid_of(file, notes):
-    if file.epsg is not None and file.epsg.isdecimal():
-        return int(file.epsg)
-    if file.epsg is not None:
-        notes.append(f"the coordinate system {file.epsg} is left out: it has no number of EPSG")
+    if file.epsg is None:
+        return 0
+    found = EPSG.fullmatch(file.epsg.strip())
+    if found and int(found[1]) <= epsg.GREATEST:
+        return int(found[1])
+    notes.append(f"the coordinate system {file.epsg} is left out: it is not a code of EPSG, so the mesh has no SRID")
     return 0
 
 
@@ -167,20 +196,20 @@ def read(path, surface=None):
     lines = Lines(points, surface.chains["Breakline"] + surface.chains["Contour"])
     for chain in surface.chains["Breakline"] + surface.chains["Contour"]:
         lines.add(chain, False)
-    plan = Plan(regions_of(surface, lines))
-    plan.take(lines.rows)
     notes = notes_of(file, surface, lines)
-    if len(surface.ids) and surface.data:
-        notes.append(f"{len(surface.data)} points of the source data are left out: the surface has points of its own")
+    plan = Plan(regions_of(surface, lines, notes))
+    plan.take(lines.rows)
+    others = [point for point in surface.data if not points.known(*point)]
+    if len(surface.ids) and others:
+        notes.append(f"left out: {counted(len(others), 'point')} of the source data (the surface has points of its own)")
     else:
-        for place in surface.data:
-            points.place(*place)
-    ids, places = points.all()
+        for point in others:
+            points.place(*point)
+    ids, places, line_of = points.all()
     corners = numbers(surface.faces, int, lambda n: surface.of_faces[n // 3]).reshape(-1, 3)
     cells = {"triangle": points.places.of(corners, lambda n: surface.of_faces[n // 3], "face")} if len(corners) else {}
     height = places[:, 2]
     data = {surface.properties.get("z", Z): height} if (height != 0).any() and not numpy.isnan(height).all() else {}
-    grid = Grid(places[:, :2], cells, ids=ids, data=data, notes=notes, lines={"points": surface.lines.__getitem__, "triangle": surface.of_faces.__getitem__}
-                if not points.more else {})
+    grid = Grid(places[:, :2], cells, ids=ids, data=data, notes=notes, lines={"points": line_of, "triangle": surface.of_faces.__getitem__})
     grid.plan, grid.srid = plan, srid_of(file, grid.notes)
     return grid

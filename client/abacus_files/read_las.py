@@ -5,6 +5,7 @@ from . import laz, laz_chunks
 from .copc import Octree
 from .copc import USER as COPC, INFO
 from .decimals import Axis
+from .english import counted
 from .epsg import of_keys, of_wkt, unknown
 from .las_header import Header
 from .las_records import TYPES, USUAL, Records
@@ -116,6 +117,6 @@ class Reader:
                 found, x, y = found[kept], x[kept], y[kept]
             yield read, x, y, [self.axes[2].values(found["Z"]) if name == "z" else self.records.values(name, found) for name in self.names]
         if self.outside:
-            self.notes.append(f"{self.outside} points lie outside of the bounds that its header says; the file may be damaged")
+            self.notes.append(f"has {counted(self.outside, 'point')} outside of the bounds in its header; the file may be damaged")
         if self.withheld:
-            self.notes.append(f"{self.withheld} points are marked as withheld, and left out")
+            self.notes.append(f"left out: {counted(self.withheld, 'point')} marked as withheld")

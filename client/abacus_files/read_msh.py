@@ -1,5 +1,6 @@
 """Gmsh's .msh, versions 2, 4.0 and 4.1, in text or binary: ids, materials and markers as Gmsh has them. Those of Fluent are meshio's."""
 from . import cell_arrays, msh_2, msh_4, msh_data, read_other
+from .english import counted
 from .grid import Grid
 from .msh_elements import Elements, labels_and_markers
 from .msh_section import File, is_of_fluent
@@ -43,7 +44,7 @@ def read(path):
     if left:
         notes.append(f"left out: {', '.join(dict.fromkeys(left))}")
     if several:
-        notes.append(f"{several} elements of one dimension less are in several physical groups; the first is the marker")
+        notes.append(f"left out: all but the first physical group of {counted(several, 'element')} of one dimension less (the first is the marker)")
     grid = Grid(points, {kind: corners for kind, (_, corners, _) in cells.items()}, ids=ids, data=data, labels=labels, markers=markers, groups=named,
                 notes=notes)
     cell_arrays.take_labels(grid, msh_data.of_elements(views["ElementData"], cells))

@@ -3,6 +3,7 @@ import re
 
 import numpy
 
+from .english import counted
 from .grid import Grid
 from .psql import Failed
 from .words import Rows, numbers, read_text
@@ -26,7 +27,7 @@ def counts(rows):
         rows.fail(at, "does not say how many vertices and faces it has")
     vertices, faces = numbers(words[:2], int, lambda n: rows.rows[at][0]).tolist()
     if min(vertices, faces) < 0 or len(rows.rows) - rows.at < vertices + faces:
-        rows.fail(-1, f"says that it has {vertices} vertices and {faces} faces, but ends after {len(rows.rows) - rows.at} lines of them")
+        rows.fail(-1, f"says that it has {counted(vertices, 'vertex', 'vertices')} and {counted(faces, 'face')}, but ends after {counted(len(rows.rows) - rows.at, 'line')} of them")
     return vertices, faces
 
 

@@ -1,6 +1,7 @@
 """Triangle's .poly: points, segments, holes and regions. Points may be in the .node beside it."""
 import pathlib
 
+from .english import counted
 from .grid import Grid
 from .plan import HOLE, Plan
 from .poly_words import Said, above
@@ -50,9 +51,7 @@ def segments(rows, places):
 
 
 def seeds(rows, width, what):
-    """(line of the file, numbers) of each place; there may be none at the end of the file."""
-    if not rows.more():
-        return []
+    """(line of the file, numbers) of each place."""
     count, = rows.whole(1, f"the number of {what}")[:1]
     if count < 0:
         rows.fail(rows.at - 1, f"the file says that it has {count} {what}")
@@ -61,7 +60,7 @@ def seeds(rows, width, what):
         words = rows.row(f"all {what} are there ({n} of {count})")
         line = rows.rows[rows.at - 1][0]
         if len(words) < width:
-            raise Failed(f"line {line}: {len(words)} numbers, where {what} have {width}")
+            raise Failed(f"line {line}: {counted(len(words), 'number')}, where {what} have {width}")
         try:
             found.append((line, [number(word, float) for word in words[1:]]))
         except ValueError:
@@ -116,17 +115,20 @@ def read(path):
     names = list(data)
     if said.attributes is not None:
         if len(said.attributes) != len(names):
-            raise Failed(f"has {len(names)} attributes, but a comment names {len(said.attributes)}")
+            raise Failed(f"has {counted(len(names), 'attribute')}, but a comment names {len(said.attributes)}")
         data = dict(zip(said.attributes, data.values()))
     plan = Plan()
     plan.take(lines_of(segments(rows, Places(ids, line_of)), said))
-    holes, regions = seeds(rows, 3, "holes"), seeds(rows, 4, "regions")
+    holes = seeds(rows, 3, "holes")
+    regions = seeds(rows, 4, "regions") if rows.more() else []
+    if rows.more():
+        rows.fail(rows.at, f"there is more than {counted(len(regions), 'region')}")
     plan.regions = regions_of(holes, regions, said)
     grid = Grid(points, {}, ids=None if "id" in data else ids, data=data, lines={"points": line_of} if here else {})
     grid.plan, grid.srid = plan, said.srid
     areas = sum(len(numbers) > 3 and numbers[3] > 0 for _, numbers in regions)
     if areas:
-        grid.notes.append(f"the greatest areas of triangles in {areas} regions are left out: a mesh gets no other points than those of the file")
+        grid.notes.append(f"left out: {counted(areas, 'greatest area', 'greatest areas')} of triangles (a mesh gets no other points than those of the file)")
     if not here:
         grid.notes.append(f"the points were read from {Part(pathlib.Path(path), '.node').path.name}")
     triangles = Part(pathlib.Path(path), ".ele")

@@ -3,6 +3,7 @@ import pathlib
 
 import numpy
 
+from .english import counted
 from .grid import Grid
 from .psql import Failed
 from .words import Places, Rows, read_text
@@ -72,7 +73,7 @@ def facets(rows, widths, places):
     rows.at -= 1
     corners = widths.get(width - (markers > 0))
     if corners is None:
-        rows.fail(rows.at, f"{width} numbers; {' or '.join(map(str, sorted(k + (markers > 0) for k in widths)))} were expected")
+        rows.fail(rows.at, f"{counted(width, 'number')}; {' or '.join(map(str, sorted(k + (markers > 0) for k in widths)))} were expected")
     table, begin = rows.table(count, width, "facets")
     found = corners_of(rows, table, begin, width, corners, places)
     return found, rows.numbers(table[1 + corners:: width], int, begin, 1) if markers else None
@@ -110,6 +111,6 @@ def read(path):
         found[facet] = corners
         if marks is not None:
             markers[facet] = marks
-        notes.append(f"{part.path.name} was read, too: {len(corners)} facets" + ("" if marks is not None else " without markers"))
+        notes.append(f"{part.path.name} was read, too: {counted(len(corners), 'facet')}" + ("" if marks is not None else " without markers"))
     return Grid(points, found, ids=ids, data=data, labels=regions, markers=markers, notes=notes,
                 lines={"points": line_of})

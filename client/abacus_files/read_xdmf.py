@@ -154,7 +154,7 @@ def read(path, keep_apart=False):
     with Data(path, root) as data:
         pieces, notes = pieces_of(grids[0], data)
     if len(grids) > 1 and any(grid.find(".//Attribute") is not None for grid in grids[1:]):
-        notes.append(f"{len(grids)} grids, of which the first is taken")
+        notes.append(f"has {len(grids)} grids, of which the first is taken")
     grid = joined(pieces, keep_apart)
     grid.notes += notes
     return grid

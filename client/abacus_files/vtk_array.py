@@ -5,6 +5,7 @@ import zlib
 
 import numpy
 
+from .english import counted
 from .psql import Failed
 from .words import Words
 from .xml_lines import LINE
@@ -134,5 +135,5 @@ class Arrays:
         except (ValueError, OverflowError, zlib.error, EOFError, Failed) as error:
             raise Failed(f"{where} cannot be read: {error}") from error
         if rows is not None and len(values) != rows * columns:
-            raise Failed(f"{where} has {len(values)} numbers, but should have {rows} times {columns}")
+            raise Failed(f"{where} has {counted(len(values), 'number')}, but should have {rows} times {columns}")
         return values.astype(kind).reshape(-1, columns)

@@ -2,6 +2,7 @@
 import numpy
 
 from . import cell_arrays
+from .english import counted
 from .grid import Grid
 
 
@@ -72,7 +73,7 @@ def joined(pieces, keep_apart):
         notes += more
     ghosts = sum(piece.ghosts for piece in pieces)
     if ghosts:
-        notes.append(f"{ghosts} ghost cells, which other pieces have, are left out")
+        notes.append(f"left out: {counted(ghosts, 'ghost cell')} of other pieces")
     of_all = in_all([piece for piece in pieces if piece.cells], lambda piece: piece.cell_data)
     left = dict.fromkeys([name for piece in pieces for name in (*piece.texts, *piece.data) if name not in names]
                          + [name for piece in pieces for name in piece.cell_data if name not in of_all])

@@ -1,6 +1,7 @@
 """A file of numbers in text, word by word. Errors name the line."""
 import numpy
 
+from .english import counted
 from .psql import Failed
 
 
@@ -104,7 +105,7 @@ class Rows:
         """The whole numbers of a line that has so many at least."""
         words = self.row(what)
         if len(words) < least:
-            self.fail(self.at - 1, f"{what} should have at least {least} numbers, but has {len(words)}")
+            self.fail(self.at - 1, f"{what} should have at least {counted(least, 'number')}, but has {len(words)}")
         return numbers(words, int, lambda n: self.rows[self.at - 1][0]).tolist()
 
     def table(self, count, width, what):
@@ -116,7 +117,7 @@ class Rows:
             self.fail(-1, f"the file ends after {len(self.rows) - begin} of {count} {what}")
         wrong = next((n for n in range(begin, end) if len(self.rows[n][1]) != width), None)
         if wrong is not None:
-            self.fail(wrong, f"{len(self.rows[wrong][1])} numbers, where {what} have {width}")
+            self.fail(wrong, f"{counted(len(self.rows[wrong][1]), 'number')}, where {what} have {width}")
         self.at = end
         return [word for _, words in self.rows[begin: end] for word in words], begin
 

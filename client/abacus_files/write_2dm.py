@@ -1,8 +1,8 @@
 """2DM of SMS, the mesh format of hydraulic models, which QGIS reads as a mesh layer."""
 import numpy
 
+from .english import counted
 from .held import loss
-from .psql import Failed
 
 suffixes = (".2dm",)
 holds = ("labels",)
@@ -32,9 +32,14 @@ def holds_ids(mesh):
     return least > 0 and greatest <= GREATEST and mesh.ids_differ()
 
 
-def write(mesh, file, z):
+def refusal(mesh, z):
+    """Why the format cannot have the mesh, or None."""
     if mesh.dimension != 2:
-        raise Failed("2DM has triangles and quadrangles only, no tetrahedra: use .vtu or .npz")
+        return "2DM has triangles and quadrangles only, no tetrahedra: use .vtu or .npz"
+    return None
+
+
+def write(mesh, file, z):
     material = Material(mesh)
     ids = None
     if holds_ids(mesh):
@@ -60,13 +65,11 @@ def write(mesh, file, z):
 
 
 def lost(mesh, z):
-    if mesh.dimension != 2:
-        return []
     attributes = [name for n, name in enumerate(mesh.attributes) if n != z]
     material = Material(mesh)
     labels = [name for n, name in enumerate(mesh.labels) if n != material.at]
     lost_labels = ([f"labels of cells ({', '.join(labels)})"] if labels else []) + (
-        [f"that {material.missing} triangles have no {mesh.labels[material.at]}: it becomes 0"] if material.at is not None and material.missing else [])
-    return loss(mesh, ids=True if holds_ids(mesh) else "ids of points, as some are equal, less than 1 or greater than 2147483647",
+        [f"missing values of {mesh.labels[material.at]}: {counted(material.missing, 'triangle gets', 'triangles get')} 0"] if material.at is not None and material.missing else [])
+    return loss(mesh, ids=True if holds_ids(mesh) else "ids of points (some are equal, less than 1 or greater than 2147483647)",
                 attributes=f"attributes of points ({', '.join(attributes)})" if attributes else True,
                 labels="; ".join(lost_labels) or True, markers=False)

@@ -80,11 +80,16 @@ def feature(mesh, names, row, z, projected):
     return {"type": "Feature", "properties": properties, "geometry": {"type": "Polygon", "coordinates": [[*places, places[0]]]}}
 
 
-def write(mesh, file, z):
+def refusal(mesh, z):
+    """Why the format cannot have the mesh, or None."""
     if mesh.dimension != 2:
-        raise Failed("GeoJSON has polygons only, no tetrahedra: use .vtu or .npz")
+        return "GeoJSON has polygons only, no tetrahedra: use .vtu or .npz"
     if mesh.corners != 3:
-        raise Failed("GeoJSON of a quadtree is not written: use .vtu, .ply or .obj")
+        return "GeoJSON of a quadtree is not written: use .vtu, .ply or .obj"
+    return None
+
+
+def write(mesh, file, z):
     places = Places(mesh)
     count = len(mesh.attributes)
     columns = places.columns() + [f"coalesce(\"values\"[{i + 1}][{k + 1}], 'NaN')" for i in range(3) for k in range(count)]
@@ -100,7 +105,5 @@ def write(mesh, file, z):
 
 
 def lost(mesh, z):
-    if mesh.dimension != 2:
-        return []
     attributes = f"attributes of points ({', '.join(mesh.attributes)}), of which a triangle has the means" if mesh.attributes else True
     return loss(mesh, attributes=attributes, markers=False)

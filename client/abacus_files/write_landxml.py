@@ -97,11 +97,16 @@ def write_points(mesh, file, z, by_ids):
     return numpy.concatenate(kept or [[]]) if by_ids else None
 
 
-def write(mesh, file, z):
+def refusal(mesh, z):
+    """Why the format cannot have the mesh, or None."""
     if mesh.dimension != 2 or mesh.corners != 3:
-        raise Failed("LandXML has surfaces of triangles only: use .vtu or .npz")
+        return "LandXML has surfaces of triangles only: use .vtu or .npz"
     if mesh.within and not mesh.is_region():
-        raise Failed("LandXML has the border of a region, so --within is the name of a region here; other formats take a polygon")
+        return "LandXML has the border of a region, so --within is the name of a region here; other formats take a polygon"
+    return None
+
+
+def write(mesh, file, z):
     file.write(head(mesh).encode())
     file.write(f"<Surfaces><Surface name={quoteattr(plain(mesh.name))}>\n".encode())
     file.write(element("SourceData", [element("Boundaries", boundaries(mesh)), element("Breaklines", breaklines(mesh, z))]).encode())
@@ -114,8 +119,6 @@ def write(mesh, file, z):
 
 
 def lost(mesh, z):
-    if mesh.dimension != 2 or mesh.corners != 3:
-        return []
     attributes = [name for n, name in enumerate(mesh.attributes) if n != z]
-    return loss(mesh, ids=ids_held(mesh) or "ids of points, as some are equal or less than 1", labels=False, markers=False,
+    return loss(mesh, ids=ids_held(mesh) or "ids of points (some are equal, or less than 1)", labels=False, markers=False,
                 attributes=f"attributes of points ({', '.join(attributes)})" if attributes else True)

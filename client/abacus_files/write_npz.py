@@ -13,7 +13,6 @@ import zipfile
 import numpy
 
 from .held import loss
-from .psql import Failed
 
 suffixes = (".npz",)
 holds = ("labels",)
@@ -47,9 +46,14 @@ def write_names(archive, member_name, names):
         out.write(array.tobytes())
 
 
-def write(mesh, file, z):
+def refusal(mesh, z):
+    """Why the format cannot have the mesh, or None."""
     if z is not None:
-        raise Failed("arrays have all attributes, as values: --z is for other formats")
+        return "arrays have all attributes, as values: --z is for other formats"
+    return None
+
+
+def write(mesh, file, z):
     n, m, count, labels = mesh.vertices, mesh.simplices, len(mesh.attributes), len(mesh.labels)
     folder = os.path.dirname(os.path.abspath(file.name))
     with zipfile.ZipFile(file, "w", zipfile.ZIP_STORED) as archive:

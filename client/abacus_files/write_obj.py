@@ -1,13 +1,17 @@
 """Wavefront OBJ: triangles, or the quadrangles of a quadtree, as text."""
 from .held import loss
-from .psql import Failed
 
 suffixes = (".obj",)
 
 
-def write(mesh, file, z):
+def refusal(mesh, z):
+    """Why the format cannot have the mesh, or None."""
     if mesh.dimension != 2:
-        raise Failed("OBJ has faces only, no tetrahedra: use .vtu or .npz")
+        return "OBJ has faces only, no tetrahedra: use .vtu or .npz"
+    return None
+
+
+def write(mesh, file, z):
     for _, coordinates, values in mesh.points():
         file.write("".join(f"v {x!r} {y!r} {h!r}\n" for x, y, h in mesh.solid(coordinates, values, z).tolist()).encode())
     for _, corners, _ in mesh.cells():

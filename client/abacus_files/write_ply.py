@@ -3,7 +3,6 @@ import numpy
 
 from .arrays import unlike
 from .held import doubles_hold_ids, loss
-from .psql import Failed
 
 suffixes = (".ply",)
 holds = ("labels",)
@@ -22,12 +21,17 @@ def type_of_ids(mesh):
     return "int" if -(1 << 31) <= least and greatest < 1 << 31 else "double" if doubles_hold_ids(mesh) else None
 
 
-def write(mesh, file, z):
+def refusal(mesh, z):
+    """Why the format cannot have the mesh, or None."""
     if mesh.dimension != 2:
-        raise Failed("PLY has faces only, no tetrahedra: use .vtu or .npz")
-    number, index = ("int", "<i4") if mesh.vertices < 1 << 31 else ("uint", "<u4")
+        return "PLY has faces only, no tetrahedra: use .vtu or .npz"
     if mesh.vertices >= 1 << 32:
-        raise Failed("PLY numbers at most 4,294,967,295 vertices: use .vtu or .npz")
+        return "PLY numbers at most 4,294,967,295 vertices: use .vtu or .npz"
+    return None
+
+
+def write(mesh, file, z):
+    number, index = ("int", "<i4") if mesh.vertices < 1 << 31 else ("uint", "<u4")
     id_type = type_of_ids(mesh)
     vertex = [*((name, "double", "<f8") for name in (*AXES, *plain(mesh.attributes, (*AXES, "id")))),
               *([("id", id_type, "<i4" if id_type == "int" else "<f8")] if id_type else [])]
@@ -57,8 +61,6 @@ def write(mesh, file, z):
 
 
 def lost(mesh, z):
-    if mesh.dimension != 2:
-        return []
     renamed = [f"{name}: {new}" for names, taken in ((mesh.attributes, (*AXES, "id")), (mesh.labels, (LIST,)))
                for name, new in zip(names, plain(names, taken)) if name != new]
     return loss(mesh, ids=type_of_ids(mesh) is not None) + ([f"names, which are changed ({', '.join(renamed)})"] if renamed else [])

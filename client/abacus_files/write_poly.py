@@ -3,10 +3,10 @@ import json
 import re
 
 from . import poly_words
+from .english import counted
 from .held import doubles_hold_ids, loss
 from .mesh_lines import Corners, Markers, regions
 from .plan import HOLE
-from .psql import Failed
 from .seeds import seeds
 
 suffixes = (".poly",)
@@ -71,13 +71,18 @@ def write_regions(mesh, file):
                 file.write(f"{n} {x!r} {y!r}{'' if is_hole else f' {name if numeric else number} -1'}\n".encode())
 
 
-def write(mesh, file, z):
+def refusal(mesh, z):
+    """Why the format cannot have the mesh, or None."""
     if mesh.dimension != 2 or mesh.corners != 3:
-        raise Failed(".poly has points and segments in the plane: use .vtu or .npz")
+        return ".poly has points and segments in the plane: use .vtu or .npz"
     if z is not None:
-        raise Failed(".poly has all attributes of points, and no third coordinate: leave out --z")
+        return ".poly has all attributes of points, and no third coordinate: leave out --z"
     if mesh.within:
-        raise Failed(".poly has no triangles, so none of a region: leave out --within")
+        return ".poly has no triangles, so none of a region: leave out --within"
+    return None
+
+
+def write(mesh, file, z):
     by_ids = numbered_by_ids(mesh)
     write_points(mesh, file, by_ids)
     write_segments(mesh, file, by_ids)
@@ -85,8 +90,6 @@ def write(mesh, file, z):
 
 
 def lost(mesh, z):
-    if mesh.dimension != 2 or mesh.corners != 3:
-        return []
     free = Markers(mesh, Corners(mesh)).lost
-    return loss(mesh, ids=numbered_by_ids(mesh) or (ids_held(mesh) and (mesh.ids_differ() or "ids of points, as some are equal")), labels=False) + (
-        [f"markers of {free} edges, which are not those of whole segments of lines"] if free else []) + mesh.not_delaunay()
+    return loss(mesh, ids=numbered_by_ids(mesh) or (ids_held(mesh) and (mesh.ids_differ() or "ids of points (some are equal)")), labels=False) + (
+        [f"markers of {counted(free, 'edge')} (only whole segments of lines have markers)"] if free else []) + mesh.not_delaunay()

@@ -137,12 +137,12 @@ class Carried(unittest.TestCase):
         """Materials and ids; the rest is named."""
         abacus.psql("SELECT abacus_load('carried_2dm', 'VALUES (10, 0, 0), (2, 2, 0), (30, 2, 2), (40, 0, 2)', 'VALUES (10, 2, 30, 1), (10, 30, 40, 1)', "
                     "labels => '{material}', facets => 'VALUES (10, 30, 5)')")
-        file = self.export("carried_2dm", "m.2dm", lost="markers of 1 facets")
+        file = self.export("carried_2dm", "m.2dm", lost="markers of 1 facet")
         self.assertEqual(sorted(sorted(line.split()[2:5]) + line.split()[5:] for line in file.read_text().splitlines() if line.startswith("E3T")),
                          [["10", "2", "30", "1"], ["10", "30", "40", "1"]])
         abacus.psql("SELECT abacus_mark('carried_2dm', 'SELECT code, v0, v1, v2, f, NULL::int FROM abacus_simplices(''carried_2dm'') s, generate_series(0, 2) f')")
         self.comes_back(file, "carried_2dm")
-        self.export("carried_plane", "n.2dm", lost="attributes of points (slip, a b); labels of cells (wet ä); that 1 triangles have no material: it becomes 0; markers of 4 facets")
+        self.export("carried_plane", "n.2dm", lost="attributes of points (slip, a b); labels of cells (wet ä); missing values of material: 1 triangle gets 0; markers of 4 facets")
 
     def test_strict(self):
         """What a format cannot hold is an error, and no file is left; what no format holds, too."""
@@ -150,7 +150,7 @@ class Carried(unittest.TestCase):
         abacus.psql("SELECT abacus_set_srid('carried_lines', 25832); SELECT abacus_stage('carried_lines', 'SELECT 9, 1, 1')")
         for mesh, suffix, said in (("carried_plane", "obj", "ids of points; attributes of points (slip, a b); labels of cells (material, wet ä); markers of 4 facets"),
                                    ("carried_plane", "geojsonl", "of which a triangle has the means; markers"),
-                                   ("carried_lines", "vtu", "1 points that equal a vertex; 1 points that wait to be inserted; the SRID 25832")):
+                                   ("carried_lines", "vtu", "1 point at the place of a vertex; 1 point waiting to be inserted; the SRID 25832")):
             done = run("abacus-export", mesh, self.at / f"strict.{suffix}", "--strict")
             self.assertEqual((done.returncode, list(self.at.glob("strict*"))), (1, []))
             self.assertIn("would not hold", done.stderr)

@@ -330,21 +330,25 @@ class Files(unittest.TestCase):
 
     def test_refused(self):
         """A clear word, status 1, and no file left."""
+        (self.at / "folder.ply").mkdir()
         for arguments, said in (
             (("files_plane", self.at / "m.xyz"), "the suffix is not that of a known format"),
-            (("no_such_mesh", self.at / "n.ply"), 'relation "no_such_mesh" does not exist'),
+            (("no_such_mesh", self.at / "n.ply"), "abacus-export: there is no mesh no_such_mesh\n"),
             (("files_plane_points", self.at / "n.ply"), "is not a mesh"),
             (("files_plane'; DROP TABLE files_plane_points; --", self.at / "n.ply"), "syntax"),
             (("files_space", self.at / "n.ply"), "no tetrahedra"),
             (("files_plane", self.at / "n.npz", "--z", "height"), "--z is for other formats"),
             (("files_plane", self.at / "n.ply", "--z", "wind"), "no attribute wind"),
             (("files_plane", self.at / "n.ply", "--z", "depth"), "missing or infinite at some vertices"),
-            (("files_plane", self.at / "no" / "n.ply"), "No such file or directory"),
+            (("files_plane", self.at / "no" / "n.ply"), f"abacus-export: {self.at}/no/n.ply: there is no folder {self.at}/no\n"),
+            (("files_plane", self.at / "folder.ply"), f"abacus-export: {self.at}/folder.ply is a folder\n"),
+            (("-d", "template1", "files_plane", self.at / "n.ply"), "the database does not have the extension abacus"),
         ):
             done = run("abacus-export", *arguments)
             self.assertEqual(done.returncode, 1, done.stdout)
             self.assertIn(said, done.stderr)
-            self.assertNotIn("Traceback", done.stderr)
+            for other in "Traceback", "SELECT", ".part", "does not hold":
+                self.assertNotIn(other, done.stderr)
             self.assertEqual(list(self.at.glob("n.ply*")), [])
         self.assertEqual(len(abacus.rows("SELECT FROM files_plane_points")), 3000)
         (self.at / "bad.vtu").write_text("nothing")

@@ -117,7 +117,7 @@ class Import(abacus.InFolder):
                 self.assertEqual(found.names, [*values, "wind_x", "wind_y", "wind_z"])
                 for have, wanted in zip(found.values, [*values.values(), *points.T]):
                     close(have, wanted)
-                self.assertEqual(found.notes, ["13 points that belong to no tetrahedron are left out"])
+                self.assertEqual(found.notes, ["left out: 13 points of no tetrahedron"])
 
     def test_pieces(self):
         """Pieces are joined, and points that they share are one; with split nodes they are two."""
@@ -135,7 +135,7 @@ class Import(abacus.InFolder):
         piece = piece_of(1, ((0, 0), (4, 0), (0, 3)), 0)
         for old, new, said in (("0 1 2<", "0 1 3<", "names a point that its piece does not have"), ("0 1 2<", "0 1<", "offsets of cells end at 3"),
                                ("0 1 2<", "0 -1 2<", "names a point"), ('NumberOfPoints="3"', 'NumberOfPoints="4"', "has 9 numbers, but should have 4 times 3"),
-                               ('NumberOfCells="1"', 'NumberOfCells="2"', "has 1 numbers, but should have 2 times 1"), ("</Cells>", "", "is not XML, or is cut off"),
+                               ('NumberOfCells="1"', 'NumberOfCells="2"', "has 1 number, but should have 2 times 1"), ("</Cells>", "", "is not XML, or is cut off"),
                                (">5<", ">9<", "quad"), (">5<", ">22<", "triangle6"), (">5<", ">99<", "type 99"),
                                (' format="ascii">1 1 1', ' format="odd">1', "format odd")):
             self.refused("wrong.vtu", vtu_of(piece).replace(old, new, 1), said)
@@ -156,8 +156,8 @@ class Import(abacus.InFolder):
             whole = head.encode() + rows + faces + struct.pack(order + "i", 0)
             self.assert_mesh(self.read(self.file("m.ply", whole)), [[0, 0], [4, 0], [0, 3], [4, 3]], CELLS)
             self.refused("cut.ply", whole[:-7], "ends before")
-        self.refused("n.ply", PLY.replace("3 1 3 2 7", "3 1 -1 2 7"), "corner -1, but there are 4 points")
-        self.refused("n.ply", PLY.replace("3 1 3 2 7", "3 1 4 2 7"), "corner 4, but there are 4 points")
+        self.refused("n.ply", PLY.replace("3 1 3 2 7", "3 1 -1 2 7"), "corner -1, but points are numbered from 0 to 3")
+        self.refused("n.ply", PLY.replace("3 1 3 2 7", "3 1 4 2 7"), "corner 4, but points are numbered from 0 to 3")
         self.refused("n.ply", PLY.replace("3 1 3 2 7", "4 1 3 2 0 7"), "quad")
         self.refused("n.ply", PLY.replace("vertex_index", "others"), "no faces with vertex_indices")
 
@@ -167,7 +167,7 @@ class Import(abacus.InFolder):
         found = self.read(self.file("m.obj", head + "f -3/1/1 -2/1 -1//1\nv 4 3 0\nf 2 4 3\n"))
         self.assert_mesh(found, [[0, 0], [4, 0], [0, 3], [4, 3]], CELLS)
         self.assertEqual(found.notes, ["left out: places in textures, normals"])
-        for faces, said in (("f 1 2 0\n", "corner 0"), ("f 1 2 -4\n", "corner -4"), ("f 1 2 4\n", "corner 3, but there are 3 points"),
+        for faces, said in (("f 1 2 0\n", "corner 0"), ("f 1 2 -4\n", "corner -4"), ("f 1 2 4\n", "corner 3, but points are numbered from 0 to 2"),
                             ("f 1 2 3 1\n", "quad"), ("", "neither triangles"), ("f 1 2 x\n", "line 6: x is not a corner"),
                             ("f 1 \\\n2 \\\n3\nf 1 2 x\n", "line 9: x is not a corner"),
                             ("f 1 2 99999999999999999999\n", "line 6: 99999999999999999999 is not a corner"), ("f 1 2 -99999999999999999999\n", "line 6: .* is not a corner")):
@@ -343,7 +343,7 @@ class Import(abacus.InFolder):
             self.refused("cut.npz", whole[:size], "npz|archive|array|read")
         for arrays, said in (({"points": [[0.0, 0]]}, "no arrays points and simplices"), ({"points": [[0.0, 0]], "simplices": [[0, 1, 2, 3]]}, "quad"),
                              ({"points": [0.0, 0], "simplices": [[0, 1, 2]]}, "shape"), ({"points": [["a", "b"]], "simplices": [[0, 0, 0]]}, "type"),
-                             ({"points": [[0.0, 0]], "simplices": [[0, 1, 2]]}, "corner 1, but there are 1 points")):
+                             ({"points": [[0.0, 0]], "simplices": [[0, 1, 2]]}, "corner 1, but points are numbered from 0 to 0")):
             numpy.savez(self.at / "w.npz", **arrays)
             with self.assertRaisesRegex(Failed, said):
                 self.read(self.at / "w.npz")
@@ -398,11 +398,16 @@ class Import(abacus.InFolder):
         second = f"$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n6\n{nodes}$EndNodes\n$Elements\n1\n1 9 2 1 1 0 1 2 3 4 5\n$EndElements\n"
         found = self.read(self.file("g.msh", second))
         self.assertEqual((found.simplices.tolist(), found.notes), ([[0, 1, 2]], ["only the corners are taken of cells of higher order: triangle6",
-                                                                                 "3 points that belong to no triangle are left out"]))
+                                                                                 "left out: 3 points of no triangle"]))
         for tag in ("1.5", "nan", "1e0"):
             self.refused("g.msh", second.replace("\n1 1 0 0\n", f"\n{tag} 1 0 0\n"), f"line 7: {tag} is not a whole number")
         great = second.replace("\n4 1 1 0\n5 2", "\n9007199254740992 1 1 0\n9007199254740993 2").replace(" 4 5\n", " 9007199254740992 9007199254740993\n")
         self.assertEqual(self.read(self.file("g.msh", great)).ids.tolist(), [0, 1, 2, 3, 9007199254740992, 9007199254740993])
+
+    def test_xml_of_fenics(self):
+        """Its suffix is that of LandXML, too."""
+        meshio.write(self.at / "f.xml", meshio.Mesh(numpy.eye(4, 3), [("tetra", numpy.array([[0, 1, 2, 3]]))]), "dolfin-xml")
+        self.assertEqual(self.read(self.at / "f.xml").simplices.tolist(), [[0, 1, 2, 3]])
 
     def test_of_meshio_counts(self):
         """Formats that meshio reads are compared with their own counts."""

@@ -106,7 +106,7 @@ class Lidar(abacus.InFolder):
                 reader, found = columns_of(self.file("f.las", las(format, minor, extra=extra)), names)
                 kept = [of for n in range(las_files.COUNT) if not (of := las_files.point(n, format))["withheld"]]
                 self.assert_points(found, kept, format, names)
-                self.assertEqual(reader.notes, [NO_SYSTEM, f"{las_files.COUNT - len(kept)} points are marked as withheld, and left out"])
+                self.assertEqual(reader.notes, [NO_SYSTEM, f"left out: {las_files.COUNT - len(kept)} points marked as withheld"])
 
     def test_laz(self):
         """Three chunks of each format that laz-perf knows."""
@@ -216,7 +216,7 @@ class Lidar(abacus.InFolder):
         exact = [end([of[axis] for of in points]) / 100 for axis in "XYZ" for end in (max, min)]
         for bounds, count in ((exact, 0), ([exact[0], -50.5, *exact[2:]], sum(of["X"] < -5051 for of in points)), ([*exact[:4], 201, exact[5]], sum(of["Z"] > 20101 for of in points))):
             reader, _ = columns_of(self.file("b.las", las(1, bounds=bounds)), ["z"], classes=[2])
-            self.assertEqual([note for note in reader.notes if "outside" in note], [f"{count} points lie outside of the bounds that its header says; the file may be damaged"] * (count > 0))
+            self.assertEqual([note for note in reader.notes if "outside" in note], [f"has {count} point{'s' * (count > 1)} outside of the bounds in its header; the file may be damaged"] * (count > 0))
         self.assertGreater(count, 9)
 
     def test_empty(self):

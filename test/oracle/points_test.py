@@ -79,7 +79,7 @@ class Points(abacus.InFolder):
         path = self.file("survey.las", las(6, records=[("LASF_Projection", 2112, system(25832).ExportToWkt().encode())], wkt=True))
         said = self.loads(path, self.mesh)
         kept = self.kept(6)
-        self.assertEqual(said, [f"{las_files.COUNT - len(kept)} points are marked as withheld, and left out"])
+        self.assertEqual(said, [f"left out: {las_files.COUNT - len(kept)} points marked as withheld"])
         self.assertEqual(self.facts(), ["25832", "{z,intensity,return_number,classification}"])
         self.assertEqual(self.vertices(), [[of["X"] / 100, of["Y"] / 100, of["Z"] / 100, of["intensity"], of["return_number"], of["classification"]] for of in kept])
         abacus.triangulate(f"{self.mesh}_same", numpy.array([[of["X"] / 100, of["Y"] / 100] for of in kept]))
@@ -182,7 +182,7 @@ class Points(abacus.InFolder):
         """An ASCII grid: no cell without data, and of the others the decimals that the header means."""
         path = self.grid("g.asc", self.heights())
         path.with_suffix(".prj").write_text(system(31370).ExportToWkt())
-        self.assertEqual(self.loads(path, self.mesh), ["21 cells have no data, and are left out"])
+        self.assertEqual(self.loads(path, self.mesh), ["left out: 21 cells without data"])
         self.assertEqual(self.facts(), ["31370", "{z}"])
         self.assert_cells(path)
         found = self.vertices()
@@ -198,7 +198,7 @@ class Points(abacus.InFolder):
             self.setUp()
             said = self.loads(path, self.mesh)
             self.assert_cells(path)
-            self.assertIn(f"{1 if n == 2 else 21} cells have no data", said[-1])
+            self.assertIn("left out: 1 cell without data" if n == 2 else "left out: 21 cells without data", said[-1])
         path = self.grid("lines.asc", values)
         text = path.read_text().split("\n")
         path.write_text("\r\n".join(text[:6] + " ".join(text[6:]).replace(" 1", "\r\n\r\n1").split("\n")))
@@ -208,7 +208,7 @@ class Points(abacus.InFolder):
         self.assertEqual([row[2] for row in self.vertices()], [row[2] for row in wants])
         self.setUp()
         said = self.loads(self.grid("silent.asc", values, NODATA_value=None), self.mesh)
-        self.assertEqual(said[1:], ["does not say NODATA_value: -9999 is none", "21 cells have no data, and are left out"])
+        self.assertEqual(said[1:], ["does not say NODATA_value: -9999 is none", "left out: 21 cells without data"])
         self.assertEqual(len(self.vertices()), values.size - 21)
 
     def test_grid_refused(self):
@@ -245,7 +245,7 @@ class Points(abacus.InFolder):
                 data, path = self.tiff(f"t{n}.tif", values, kind, no_data, **options)
                 del data
                 self.setUp()
-                self.assertEqual(self.loads(path, self.mesh), ["21 cells have no data, and are left out"])
+                self.assertEqual(self.loads(path, self.mesh), ["left out: 21 cells without data"])
                 self.assertEqual(self.facts(), ["25832", "{z}"])
                 self.assert_cells(path)
 
@@ -271,7 +271,7 @@ class Points(abacus.InFolder):
         data.GetRasterBand(1).GetMaskBand().WriteArray(mask)
         del data
         self.setUp()
-        self.assertEqual(self.loads(path, self.mesh)[1:], ["6 cells have no data, and are left out", "3 cells have no finite height, and are left out"])
+        self.assertEqual(self.loads(path, self.mesh)[1:], ["left out: 6 cells without data", "left out: 3 cells without a finite height"])
         self.assertEqual([row[2] for row in self.vertices()], [value for value in odd[1:].reshape(-1).tolist() if abs(value) < 1000])
 
     def test_tiff_refused(self):

@@ -74,7 +74,7 @@ class Poly(abacus.InFolder):
 
     def test_in(self):
         said = self.imported(self.file("a.poly", POLY), "poly_in")
-        self.assertEqual(said, ["the greatest areas of triangles in 1 regions are left out: a mesh gets no other points than those of the file"])
+        self.assertEqual(said, ["left out: 1 greatest area of triangles (a mesh gets no other points than those of the file)"])
         self.assertEqual(abacus.rows("SELECT id, attributes FROM abacus_vertices('poly_in') ORDER BY id")[-1], ["8", "{NULL,1}"])
         self.assertEqual(abacus.rows("SELECT line, array_agg(point ORDER BY position) FROM abacus_lines('poly_in') WHERE line IN (1, 10) GROUP BY line ORDER BY line"),
                          [["1", "{1,2}"], ["10", "{5,6}"]])
@@ -118,7 +118,7 @@ class Poly(abacus.InFolder):
         abacus.psql("SELECT abacus_mark('poly_lost', $$SELECT code, v0, v1, v2, facet, 8 FROM abacus_cells('poly_lost'), LATERAL (VALUES (0, v1, v2), (1, v0, v2), (2, v0, v1)) "
                     "AS side (facet, p, q) WHERE least(p, q) = 1 AND greatest(p, q) = 8$$)")
         path = self.at / "lost.poly"
-        lost = "markers of 2 edges, which are not those of whole segments of lines"
+        lost = "markers of 2 edges (only whole segments of lines have markers)"
         done = run("abacus-export", "poly_lost", path)
         self.assertEqual((done.returncode, done.stderr), (0, f"abacus-export: {path} does not hold {lost}\n"))
         path.unlink()
@@ -126,12 +126,12 @@ class Poly(abacus.InFolder):
         self.assertEqual((done.returncode, done.stderr), (1, f"abacus-export: {path} would not hold {lost}\n"))
         self.assertEqual([entry.name for entry in self.at.glob("lost*")], [])
         done = run("abacus-export", "poly_lost", self.at / "lost.ply")
-        self.assertIn("lines, to which 10 edges belong, and that these are fixed; regions (", done.stderr)
+        self.assertIn("lines, which fix 10 edges; regions (", done.stderr)
 
     def test_a_loaded_mesh_has_other_triangles(self):
         abacus.psql("DROP TABLE IF EXISTS poly_loaded, poly_loaded_vertices")
         abacus.psql("SELECT abacus_load('poly_loaded', 'VALUES (1, 0, 0), (2, 9, 1), (3, 10, 9), (4, 0, 1)', 'VALUES (1, 2, 3), (1, 3, 4)')")
-        self.assertIn("its 2 triangles, which are not those that points and lines give", run("abacus-export", "poly_loaded", self.at / "loaded.poly").stderr)
+        self.assertIn("its triangles (2): its points and lines make others", run("abacus-export", "poly_loaded", self.at / "loaded.poly").stderr)
 
     def test_points_beside_it(self):
         head, _, tail = POLY.partition("\n\n")
@@ -173,6 +173,9 @@ class Poly(abacus.InFolder):
         self.refused("line 13: 1.5 is not a whole number", ("1 1 2 3", "1 1 2 1.5"))
         self.refused("does not fit 32 bits", ("1 1 2 3", f"1 1 2 {1 << 31}"))
         self.refused("line 23: 2 numbers, where holes have 3", ("1 5 4\n", "1 5\n"))
+        self.refused("line 26: there is more than 1 region", ("2\n1 1 8", "1\n1 1 8"))
+        self.refused("line 25: 1 number, where regions have 4", ("1 1 8 3 0.1", "1"))
+        self.refused("line 12: the comment", ("9 1\n1 1 2 3", "# abacus srid 99999999\n9 1\n1 1 2 3"))
         self.refused("line 25: 3 numbers, where regions have 4", ("1 1 8 3 0.1\n", "1 1 8\n"))
         self.refused("line 26: not all of these are numbers: 2 8 y -2", ("2 8 1 -2", "2 8 y -2"))
         self.refused("line 26: the file ends before all regions are there \\(2 of 3\\)", ("2\n1 1 8", "3\n1 1 8"))
@@ -184,8 +187,9 @@ class Poly(abacus.InFolder):
             self.refused(said, ("9 1\n1 1 2 3\n2 2 3 3", f"# abacus {comment}\n9 1\n1 1 2 3\n2 3 4 3"))
 
     def test_cut_off(self):
-        """A file that is cut off anywhere is an error of one line, or what is there is whole."""
-        for size in range(0, len(POLY), 3):
+        """A file that is cut off anywhere is an error of one line, or what is there is whole: the line that counts the regions may be missing, that of the holes not."""
+        holes = POLY.index("1\n1 5 4\n")
+        for size in (*range(0, len(POLY), 3), holes):
             path = self.file("cut.poly", POLY[:size])
             try:
                 grid = read.read_here(str(path), keep_apart=False)
@@ -193,6 +197,11 @@ class Poly(abacus.InFolder):
                 PlanInput(grid)
             except Failed as error:
                 self.assertNotIn("\n", str(error))
+            else:
+                self.assertGreater(size, holes + len("1\n1 5"))
+        self.refused("line 21: the file ends before the number of holes", text=POLY[:holes])
+        self.refused("line 21: the file ends before the number of holes", text=POLY[:holes] + "# nothing else\n")
+        self.assertEqual(read.read_here(str(self.file("cut.poly", POLY[: holes + len("1\n1 5 4\n")])), keep_apart=False).plan.regions, [["hole", None, 5.0, 4.0]])
 
     def test_through_the_process_apart(self):
         grid = apart.read(str(self.file("a.poly", POLY)), keep_apart=False)

@@ -77,7 +77,7 @@ class Within(unittest.TestCase):
     def test_lines(self):
         """LandXML has the lines that lie in the region, and names those that go on."""
         path, lost = self.export("c.xml", "--within", "farm", "--z", "height")
-        self.assertIn("1 lines that go on beyond the region", lost)
+        self.assertIn("1 line extending beyond the region", lost)
         abacus.psql("DROP TABLE IF EXISTS within_again, within_again_vertices CASCADE")
         done = run("abacus-import", path, "within_again")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
@@ -106,8 +106,18 @@ class Within(unittest.TestCase):
         self.assertEqual([[str(len(triangles))]], abacus.rows(f"SELECT count(*) FROM abacus_cells('within_shire', within => '{polygon}')"))
         done = run("abacus-export", "within_shire", self.at / "polygon.xml", "--within", polygon)
         self.assertEqual(done.returncode, 1)
-        self.assertIn("--within is the name of a region here", done.stderr)
+        self.assertEqual(done.stderr, "abacus-export: LandXML has the border of a region, so --within is the name of a region here; other formats take a polygon\n")
         self.assertFalse((self.at / "polygon.xml").exists())
+
+    def test_no_triangles(self):
+        """A polygon beside the mesh."""
+        beside = "POLYGON((20 20, 30 20, 30 30, 20 20))"
+        for suffix in "vtu", "ply", "geojsonl", "npz":
+            path = self.at / f"none.{suffix}"
+            done = run("abacus-export", "within_shire", path, "--within", beside)
+            self.assertEqual((done.returncode, done.stdout), (0, f"{path}: 0 vertices, 0 simplices\n"), done.stderr)
+            self.assertIn(f"abacus-export: {path} has no triangles: none lies within {beside}\n", done.stderr)
+        self.assertNotIn("has no triangles", run("abacus-export", "within_shire", path, "--within", "farm").stderr)
 
     def test_refused(self):
         for mesh, options, said in (("within_shire", ["--within", "nope"], 'has no region "nope"'), ("within_shire", ["--within", ""], 'has no region ""')):
@@ -115,7 +125,8 @@ class Within(unittest.TestCase):
             self.assertEqual(done.returncode, 1)
             self.assertIn(said, done.stderr)
             self.assertEqual(list(self.at.glob("no.*")), [])
-        self.assertIn("leave out --within", run("abacus-export", "within_shire", self.at / "no.poly", "--within", "farm").stderr)
+        self.assertEqual(run("abacus-export", "within_shire", self.at / "no.poly", "--within", "farm").stderr,
+                         "abacus-export: .poly has no triangles, so none of a region: leave out --within\n")
         abacus.triangulate("within_solid", numpy.random.default_rng(1).uniform(0, 1, (9, 3)))
         self.assertIn("--within is for meshes in the plane", run("abacus-export", "within_solid", self.at / "no.vtu", "--within", "farm").stderr)
 
