@@ -116,12 +116,12 @@ area_text_geometry(Geos *geos, const char *text)
 	text = geometry_text_behind_srid(whole, &srid);
 	if (geometry_text(whole) == GEOMETRY_WKT && (strcasestr(text, "nan") != NULL || strcasestr(text, "inf") != NULL))
 		refuse("A coordinate is not a finite number.", "Give finite coordinates.");
+	excess = geometry_text_excess(whole);
+	if (*excess != '\0')			/* which not all versions of GEOS find */
+		refuse(psprintf("It ends before \"%s\".", text_begin(excess)), "Give several polygons as one MultiPolygon.");
 	geometry = geometry_text(whole) == GEOMETRY_HEX ? geos_read_hex(geos, text) : geos_read_text(geos, text);
 	if (geometry == NULL)
 		refuse(geos_message(geos), "Give the name of a region, or a polygon as WKT, EWKT or hexadecimal EWKB.");
-	excess = geometry_text_excess(whole);
-	if (*excess != '\0')
-		refuse(psprintf("It ends before \"%s\".", text_begin(excess)), "Give several polygons as one MultiPolygon.");
 	if (srid != 0)
 		GEOSSetSRID_r(geos->handle, geometry, srid);
 	return geometry;
