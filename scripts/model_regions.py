@@ -8,7 +8,7 @@ import math
 from psql_session import Failure
 
 # what refuses a region, or a change of lines because of one
-REFUSALS = ("uses line", "is the border of a region", "is on a fixed edge", "leaks to the hull", "overlap", "is not closed", "is empty", "is outside of mesh")
+REFUSALS = ("uses line", "ends at line", "is on a fixed edge", "leaks to the hull", "overlap", "is not closed", "is empty", "is outside of mesh")
 
 
 class Regions:

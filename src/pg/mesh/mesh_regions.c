@@ -14,6 +14,7 @@
 #include "utils/builtins.h"
 #include "utils/float.h"
 #include "utils/memutils.h"
+#include "utils/snapmgr.h"
 
 #include "pg/base/settings.h"
 #include "pg/host/guard.h"
@@ -131,10 +132,7 @@ place_in_words(const double *place)
 	return psprintf("(%s, %s)", float8out_internal(place[0]), float8out_internal(place[1]));
 }
 
-/*
- * "line 7", the result of a query; `others` without one. `before`: of what the statement saw when it
- * began.
- */
+/* "line 7", the result of a query; `others` without one. `before`: of what the active snapshot shows. */
 static char *
 line_in_words(const char *query, int count, Oid *types, Datum *arguments, bool before, const char *others)
 {
@@ -170,7 +168,7 @@ open_line(Writer *writer, const abacus_region_fault *fault)
 
 /*
  * The line that goes with a segment that a region ends at, in words for a message. Its rows have gone
- * already: they are seen as they were when the statement began.
+ * already: they are seen as they were when the change began.
  */
 static char *
 border_line(Writer *writer, const abacus_region_fault *fault)
@@ -181,8 +179,11 @@ border_line(Writer *writer, const abacus_region_fault *fault)
 		Float8GetDatum(fault->edge[1][0]), Float8GetDatum(fault->edge[1][1])
 	};
 	char	   *table = lines_table_name(lines_table_require(mesh_of(writer), MESH_WRITE));
+	char	   *line;
 
-	return line_in_words(psprintf("SELECT line FROM (SELECT l.line, l.x, l.y, pg_catalog.lead(l.x) OVER w AS x1, "
+	PushCopiedSnapshot(GetActiveSnapshot());
+	GetActiveSnapshot()->curcid = writer->began;
+	line = line_in_words(psprintf("SELECT line FROM (SELECT l.line, l.x, l.y, pg_catalog.lead(l.x) OVER w AS x1, "
 								  "pg_catalog.lead(l.y) OVER w AS y1 FROM %s AS l WHERE l.line IN (SELECT o.line FROM %s AS o "
 								  "WHERE o.x OPERATOR(pg_catalog.=) $1 AND o.y OPERATOR(pg_catalog.=) $2) "
 								  "WINDOW w AS (PARTITION BY l.line, l.part ORDER BY l.position)) AS s "
@@ -191,6 +192,8 @@ border_line(Writer *writer, const abacus_region_fault *fault)
 								  "OR (x1 OPERATOR(pg_catalog.=) $1 AND y1 OPERATOR(pg_catalog.=) $2 "
 								  "AND x OPERATOR(pg_catalog.=) $3 AND y OPERATOR(pg_catalog.=) $4)) ORDER BY line LIMIT 1",
 								  table, table), lengthof(types), types, ends, true, "a line that goes");
+	PopActiveSnapshot();
+	return line;
 }
 
 /* Raises the error for regions that cannot be. */

@@ -130,6 +130,7 @@ begin(Writer *writer, Oid mesh, MeshAccess access, uint32 type, const char *comm
 	mesh_pages(writer->host)->type = type;
 	writer->header = MemoryContextAlloc(writer->host->home, sizeof(abacus_header));
 	open_and_lock(writer, in_trigger);
+	writer->began = GetActiveSnapshot()->curcid;
 	progress_begin(&writer->host->progress, mesh);
 }
 

@@ -16,6 +16,7 @@ typedef struct Writer
 	Host	   *host;
 	abacus_header *header;
 	ItemPointerData header_tid;
+	CommandId	began;			/* what commands before this one have done was there when it began */
 } Writer;
 
 extern void writer_prevent_read_only(Oid mesh, const char *command);
