@@ -36,18 +36,8 @@ refuse(const char *detail, const char *hint)
 }
 
 static void
-require_polygon(Geos *geos, const GEOSGeometry *geometry)
+require_valid(Geos *geos, const GEOSGeometry *geometry)
 {
-	int			kind = GEOSGeomTypeId_r(geos->handle, geometry);
-
-	if (kind != GEOS_POLYGON && kind != GEOS_MULTIPOLYGON)
-	{
-		char	   *name = GEOSGeomType_r(geos->handle, geometry);
-		char	   *detail = psprintf("It is a %s.", name);
-
-		GEOSFree_r(geos->handle, name);
-		refuse(detail, "Give the name of a region, a Polygon or a MultiPolygon.");
-	}
 	if (GEOSisValid_r(geos->handle, geometry) != 1)
 	{
 		char	   *reason = GEOSisValidReason_r(geos->handle, geometry);
@@ -105,14 +95,15 @@ GEOSGeometry *
 area_text_geometry(Geos *geos, const char *text)
 {
 	const char *whole = text;
-	const char *curved = geometry_text_curved(whole);
+	const char *other = geometry_text_other(whole);
 	const char *excess;
 	int32		srid;
 	GEOSGeometry *geometry;
 
-	if (curved != NULL)
-		refuse(psprintf("It is a %s.", curved),
-			   "Make it a polygon, with ST_CurveToLine of a curve, or with ST_UnaryUnion of a surface.");
+	if (other != NULL)
+		refuse(psprintf("It is a %s.", other), strstr(other, "Curve") != NULL
+			   ? "Make it a polygon with ST_CurveToLine."
+			   : "Give the name of a region, a Polygon or a MultiPolygon.");
 	text = geometry_text_behind_srid(whole, &srid);
 	if (geometry_text(whole) == GEOMETRY_WKT && (strcasestr(text, "nan") != NULL || strcasestr(text, "inf") != NULL))
 		refuse("A coordinate is not a finite number.", "Give finite coordinates.");
@@ -140,7 +131,7 @@ area_text_read(const char *text)
 		GEOSGeometry *geometry = area_text_geometry(&geos, text);
 
 		area.srid = GEOSGetSRID_r(geos.handle, geometry);
-		require_polygon(&geos, geometry);
+		require_valid(&geos, geometry);
 		take_rings(&geos, geometry, &area);
 	}
 	PG_FINALLY();

@@ -15,22 +15,23 @@ typedef struct Kind
 {
 	const char *word;
 	bool		has_words;		/* in its parentheses: geometries by their names */
-	bool		is_curved;		/* or a surface, of which GEOS knows nothing */
+	bool		is_read;		/* by GEOS, which must not see collections: they may nest without end */
 } Kind;
 
 /* None begins with another one before it. */
 static const Kind kinds[] = {
-	{"MULTIPOLYGON", false, false}, {"POLYGON", false, false}, {"MULTIPOINT", false, false},
-	{"POINT", false, false}, {"MULTILINESTRING", false, false}, {"LINESTRING", false, false},
-	{"LINEARRING", false, false}, {"GEOMETRYCOLLECTION", true, false}, {"CURVEPOLYGON", true, true},
-	{"COMPOUNDCURVE", true, true}, {"MULTICURVE", true, true}, {"CIRCULARSTRING", false, true},
-	{"MULTISURFACE", true, true}, {"TIN", false, true}, {"TRIANGLE", false, true},
-	{"POLYHEDRALSURFACE", false, true}
+	{"MultiPolygon", false, true}, {"Polygon", false, true}, {"MultiPoint", false, false},
+	{"Point", false, false}, {"MultiLineString", false, false}, {"LineString", false, false},
+	{"LinearRing", false, false}, {"GeometryCollection", true, false}, {"CurvePolygon", true, false},
+	{"CompoundCurve", true, false}, {"MultiCurve", true, false}, {"CircularString", false, false},
+	{"MultiSurface", true, false}, {"Tin", false, false}, {"Triangle", false, false},
+	{"PolyhedralSurface", false, false}
 };
 
 /* The same for the numbers of types in WKB, from 1 on. */
+#define WKB_POLYGON 3
+#define WKB_MULTIPOLYGON 6
 #define MOST_WKB_TYPE 17
-#define FIRST_CURVED_WKB_TYPE 8
 
 static const char *
 behind_spaces(const char *text)
@@ -77,7 +78,7 @@ wkt_kind(const char *text, const char **rest)
 			at++;
 		at = behind_spaces(at);
 		*rest = at;
-		if (pg_strncasecmp(at, "EMPTY", 5) == 0)
+		if (pg_strncasecmp(at, "EMPTY", 5) == 0 && *behind_spaces(at + 5) == '\0')
 			return &kinds[i];
 		if (*at != '(')
 			return NULL;
@@ -174,20 +175,37 @@ take_head(Bytes *bytes, uint32 *type, int *coordinates)
 	return (flags & 2) == 0 || skip_bytes(bytes, 4);
 }
 
-/* Goes behind a polygon, or behind several of them; false if it is neither, or does not end. */
+/* Goes behind a polygon whose head was taken; false if it does not end. */
+static bool
+skip_rings(Bytes *bytes, int coordinates)
+{
+	uint32		rings;
+	uint32		points;
+
+	if (!take_word(bytes, &rings))
+		return false;
+	for (; rings > 0; rings--)
+		if (!take_word(bytes, &points) || !skip_bytes(bytes, (uint64) points * coordinates * sizeof(double)))
+			return false;
+	return true;
+}
+
+/* Goes behind a Polygon or a MultiPolygon, which has nothing but polygons; false if it is neither, or does not end. */
 static bool
 skip_polygons(Bytes *bytes)
 {
 	uint32		type;
 	uint32		parts;
 	int			coordinates;
-	uint32		points;
 
-	if (!take_head(bytes, &type, &coordinates) || (type != 3 && type != 6) || !take_word(bytes, &parts))
+	if (!take_head(bytes, &type, &coordinates))
+		return false;
+	if (type == WKB_POLYGON)
+		return skip_rings(bytes, coordinates);
+	if (type != WKB_MULTIPOLYGON || !take_word(bytes, &parts))
 		return false;
 	for (; parts > 0; parts--)
-		if (type == 6 ? !skip_polygons(bytes)
-			: !take_word(bytes, &points) || !skip_bytes(bytes, (uint64) points * coordinates * sizeof(double)))
+		if (!take_head(bytes, &type, &coordinates) || type != WKB_POLYGON || !skip_rings(bytes, coordinates))
 			return false;
 	return true;
 }
@@ -241,16 +259,20 @@ geometry_text_excess(const char *text)
 	}
 	if (wkt_kind(text, &rest) == NULL)
 		return "";
-	return behind_spaces(*rest == '(' ? behind_parentheses(rest) : rest + strlen("EMPTY"));
+	return *rest == '(' ? behind_spaces(behind_parentheses(rest)) : "";
 }
 
-/* The name of a kind of geometry with curves or surfaces; NULL if the text is another one. */
+/*
+ * The name of a geometry that is no Polygon or MultiPolygon; NULL if it is one. So GEOS gets nothing
+ * else, whatever the text has. A polygon in WKB that does not end is a "geometry that is not made of whole polygons".
+ */
 const char *
-geometry_text_curved(const char *text)
+geometry_text_other(const char *text)
 {
 	static const char *const of_wkb[] = {
-		"CIRCULARSTRING", "COMPOUNDCURVE", "CURVEPOLYGON", "MULTICURVE", "MULTISURFACE", "CURVE", "SURFACE",
-		"POLYHEDRALSURFACE", "TIN", "TRIANGLE"
+		"Point", "LineString", "Polygon", "MultiPoint", "MultiLineString", "MultiPolygon", "GeometryCollection",
+		"CircularString", "CompoundCurve", "CurvePolygon", "MultiCurve", "MultiSurface", "Curve", "Surface",
+		"PolyhedralSurface", "Tin", "Triangle"
 	};
 	int32		srid;
 	const char *rest;
@@ -260,12 +282,15 @@ geometry_text_curved(const char *text)
 	if (is_hexadecimal(text))
 	{
 		Bytes		bytes = bytes_of(text);
+		Bytes		whole = bytes_of(text);
 		uint32		type = 0;
 		int			coordinates;
 
 		take_head(&bytes, &type, &coordinates);
-		return type < FIRST_CURVED_WKB_TYPE ? NULL : of_wkb[type - FIRST_CURVED_WKB_TYPE];
+		if (type != WKB_POLYGON && type != WKB_MULTIPOLYGON)
+			return of_wkb[type - 1];
+		return skip_polygons(&whole) ? NULL : "geometry that is not made of whole polygons";
 	}
 	kind = wkt_kind(text, &rest);
-	return kind != NULL && kind->is_curved ? kind->word : NULL;
+	return kind == NULL || kind->is_read ? NULL : kind->word;
 }

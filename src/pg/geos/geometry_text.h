@@ -15,6 +15,6 @@ typedef enum GeometryText
 extern GeometryText geometry_text(const char *text);
 extern const char *geometry_text_behind_srid(const char *text, int32 *srid);
 extern const char *geometry_text_excess(const char *text);
-extern const char *geometry_text_curved(const char *text);
+extern const char *geometry_text_other(const char *text);
 
 #endif
