@@ -64,7 +64,7 @@ RegionCuts::Found RegionCuts::find_seeds(RegionParts &parts, abacus_region_fault
     return found;
 }
 
-RegionCuts::Found RegionCuts::clear_cut_off() {
+template <class Visit> void RegionCuts::each_seeded(Visit visit) {
     for (std::size_t i = 0; i < faces_.size(); ++i) {
         const Faces::Edge edge = faces_[i];
         const RegionNumber region =
@@ -74,14 +74,23 @@ RegionCuts::Found RegionCuts::clear_cut_off() {
         if (std::none_of(seeded_.begin(), seeded_.end(),
                          [&](const Seeded &seed) { return seed.region == region; }))
             continue;
-        const Seeded here{region, face(faces_.name(edge))};
-        if (faces_.steps() > most_steps) return Found::too_much;
-        if (std::find(seeded_.begin(), seeded_.end(), here) != seeded_.end()) continue;
+        if (!visit(edge, Seeded{region, face(faces_.name(edge))})) return;
+    }
+}
+
+RegionCuts::Found RegionCuts::clear_cut_off() {
+    // All faces are known before the first triangle changes: finding regions anew begins with whole
+    // ones.
+    each_seeded([&](const Faces::Edge &, const Seeded &) { return faces_.steps() <= most_steps; });
+    if (faces_.steps() > most_steps) return Found::too_much;
+    each_seeded([&](const Faces::Edge &edge, const Seeded &here) {
+        if (std::find(seeded_.begin(), seeded_.end(), here) != seeded_.end()) return true;
         abacus_region_fault none;
-        flood_.begin(RegionFlood::Rule::face, region);
+        flood_.begin(RegionFlood::Rule::face, here.region);
         flood_.take(link_simplex(RegionFlood::left_of(mesh_, edge.from, edge.to)));
         flood_.run(none);
-    }
+        return true;
+    });
     return Found::sound;
 }
 

@@ -33,6 +33,9 @@ private:
     enum class Found { sound, fault, too_much };
 
     Found find_seeds(RegionParts &parts, abacus_region_fault &fault);
+    /// Calls visit(edge, face on its left) for those with a region of seeds there, until it returns
+    /// false.
+    template <class Visit> void each_seeded(Visit visit);
     Found clear_cut_off();
     bool renew(RegionParts &parts, abacus_region_fault &fault);
     Faces::Edge face(const std::optional<Faces::Edge> &name) {
