@@ -90,10 +90,12 @@ export async function drop(mesh) {
 }
 
 const pause = (ms) => new Promise((resolve) => setTimeout(resolve, ms));
+/** The same, which keeps no process running that has nothing else to do. */
+const deadline = (ms) => new Promise((resolve) => setTimeout(resolve, ms).unref());
 
 /** Waits for a condition; long enough for a machine that has much else to do. A condition that never answers does not hold. */
 export async function eventually(condition, what, most = 30_000) {
     for (const until = Date.now() + most; Date.now() < until; await pause(50))
-        if (await Promise.race([condition(), pause(until - Date.now())])) return;
+        if (await Promise.race([condition(), deadline(until - Date.now())])) return;
     throw new Error(`not within ${most / 1000} seconds: ${what}`);
 }
