@@ -173,7 +173,12 @@ start() {
     set +m
 }
 
-# ended PID STATUS: reports how its suite ended, with the end of the log if it failed. Status 77: it cannot be
+# The tests that failed according to a TAP log, with what they say: the end of a long log shows only what passed after them.
+failed_taps() {
+    awk '/^ *not ok / { lines = 40 } /^ *(ok |# Subtest)/ { lines = 0 } lines && ++shown <= 200 { print; --lines }' "$1"
+}
+
+# ended PID STATUS: reports how its suite ended, with what failed and the end of the log if it failed. Status 77: it cannot be
 # run here.
 ended() {
     local name=${running[$1]} status=$2 log=$logs/${running[$1]}.log word=ok said elapsed=- used=- kernel=-
@@ -187,7 +192,10 @@ ended() {
     if [[ -s $logs/$name.times ]]; then read -r elapsed used kernel <"$logs/$name.times"; fi
     printf '%-16s %9s %9s %9s  %s\n' "$name" "$elapsed" "$used" "$kernel" "$word" >>"$logs/times"
     printf '[%d/%d] %-7s %-16s %6s s   %s\n' $((passed + failed + skipped)) ${#suites[@]} "$word" "$name" "$elapsed" "$said"
-    if [[ $word == FAILED ]]; then tail -n 40 "$log"; fi
+    if [[ $word == FAILED ]]; then
+        failed_taps "$log"
+        tail -n 40 "$log"
+    fi
 }
 
 # The first remaining suite whose needs have passed; suites whose needs have failed fail.
