@@ -230,6 +230,7 @@ test("when the connection to the database breaks the page says by itself what is
     assert.match(await page.locator("#summary").innerText(), new RegExp(`${(Number(before) + 1).toLocaleString("en")} vertices`));
     way.open = false;
     way.break();
+    await canvas().hover({ position: { x: 480, y: 300 } }); // what is under the pointer is asked before the page reports again
     await says(/the connection to the database broke; 1 unsaved change was lost/);
     assert.equal(await changes(), "No unsaved changes");
     way.open = true;

@@ -26,6 +26,12 @@ export function say(content, kind = "") {
     openPanel("panel");
 }
 
+/** An error that nobody's question led to, as of a tile: one that is shown already stays, since it may say what was lost. */
+export function mention(text) {
+    const { hidden, classList } = element("hint");
+    if (hidden || !classList.contains("error")) say(text, "error");
+}
+
 /** Opens a panel. On a small screen there is room for one. */
 export function openPanel(id, isOpen = true) {
     element(id).hidden = !isOpen;

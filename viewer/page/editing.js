@@ -26,11 +26,7 @@ async function drawAgain() {
 
 /** Tells the server that the page is there, and hears whether its changes are. */
 export async function stillThere() {
-    try {
-        if (editor.unsaved > 0) await post("alive");
-    } catch (error) {
-        if (error.hasEnded) say(error.message, "error");
-    }
+    if (editor.unsaved > 0) await post("alive").catch(() => {}); // what matters is heard below; a server that is away may return
 }
 
 /** Sets the page up to edit; `changed` is called when the mesh may look different. */
@@ -38,10 +34,12 @@ export function setUpEditing(changed) {
     redraw = changed;
     document.body.classList.add("edit");
     element("id").value = String(Date.now());
-    editor.heard = (changes, lost) => {
+    editor.heard = (changes, lost, message) => {
         const had = editor.unsaved;
         show(changes);
-        if (lost > 0 || had > changes) drawAgain();
+        if (lost === 0 && had <= changes) return;
+        say(message, "error"); // here, since the first to hear it may be a request of which nobody expects an answer
+        drawAgain();
     };
     const finish = (name, words) => answering(async () => {
         const { changes } = await post(name);

@@ -1,6 +1,6 @@
 // The map of a mesh in the plane, and what of it the other parts of the page use.
 import * as maplibre from "maplibre-gl";
-import { element, say } from "./common.js";
+import { element, mention } from "./common.js";
 import { Intervals } from "./contours.js";
 import { Coordinates } from "./coordinates.js";
 import { stillThere } from "./editing.js";
@@ -113,7 +113,7 @@ export const map = new maplibre.Map({
     style: styleOf(settings()),
 });
 map.getCanvas().setAttribute("aria-label", "Map of the mesh. Press Enter to use the tool at the middle of the map. Once a triangle is shown, the arrow keys walk to its neighbours. Press Escape to start again.");
-map.on("error", ({ error }) => (error?.status === 410 ? stillThere() : say(error?.message ?? "A tile could not be loaded.", "error")));
+map.on("error", ({ error }) => (error?.status === 410 ? stillThere() : mention(error?.message ?? "A tile could not be loaded.")));
 
 export const fit = () => isEmpty() || map.fitBounds(bounds(), { padding: padding(), pitch: map.getPitch(), bearing: 0 });
 

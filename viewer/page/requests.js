@@ -1,7 +1,7 @@
 // What the page asks the server, and its session, if it edits.
 import { undone } from "./common.js";
 
-/** The token of the session, and how many changes are not saved. */
+/** The token of the session, and how many changes are not saved. `heard` gets what an error says of them. */
 export const editor = { session: null, unsaved: 0, heard: () => {} };
 
 const named = () => (editor.session ? { "X-Session": editor.session } : {});
@@ -17,9 +17,10 @@ async function request(path, options) {
     const answer = await response.json().catch(() => ({ error: `the server answered ${response.status} ${response.statusText}` }));
     if (response.ok) return answer;
     const { error, hint, changes, lost } = answer, hasEnded = response.status === 410, had = editor.unsaved;
+    const message = sentences(error, hint, lost && !hasEnded && undone(lost));
     if (hasEnded && session === editor.session) editor.session = null;
-    if (changes !== undefined) editor.heard(changes, lost ?? 0);
-    throw Object.assign(new Error(sentences(error, hint, lost && !hasEnded && undone(lost))), { hasEnded, had });
+    if (changes !== undefined) editor.heard(changes, lost ?? 0, message);
+    throw Object.assign(new Error(message), { hasEnded, had });
 }
 
 export const ask = (name, parameters = {}) => request(`/api/${name}?${new URLSearchParams(parameters)}`, { headers: sessionHeaders() });
