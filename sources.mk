@@ -26,6 +26,7 @@ CORE.base += src/blocks/page_seal.cpp
 CORE.base += src/blocks/replacement.cpp
 CORE.base += src/host/crew.cpp
 CORE.base += src/host/desk.cpp
+CORE.base += src/host/pages_in_hand.cpp
 CORE.base += src/host/thread_memory.cpp
 CORE.base += src/keys/locational_code.cpp
 CORE.base += src/sort/chain_rank.cpp

@@ -19,7 +19,9 @@ WITH build AS (
            extract(epoch FROM clock_timestamp()) - 946684800.0 - s.param19::numeric / 1e6 AS seconds,
            s.param2 AS pages_read,
            s.param3 AS pages_written,
-           greatest(s.param8, 1::bigint) AS threads
+           greatest(s.param8 & 65535::bigint, 1::bigint) AS threads,
+           ((s.param8 >> 16) & 8388607::bigint)::double precision / 1000.0::double precision AS busy,
+           (s.param8 >> 39)::double precision / 1000.0::double precision AS session_busy
     FROM pg_catalog.pg_stat_get_progress_info('CREATE INDEX') AS s,
          pg_catalog.pg_database AS d
     WHERE d.datname = current_database()
@@ -47,7 +49,9 @@ SELECT pid,
        make_interval(secs => seconds::double precision) AS elapsed,
        pages_read,
        pages_written,
-       threads
+       threads,
+       busy,
+       session_busy
 FROM build;
 COMMENT ON VIEW abacus_progress IS 'live figures of the builds, changes, loads, checks, locations of many places and surfaces that run in any session';
 COMMENT ON COLUMN abacus_progress.pid IS 'process id of the session';
@@ -61,4 +65,6 @@ COMMENT ON COLUMN abacus_progress.elapsed IS 'since the function began';
 COMMENT ON COLUMN abacus_progress.pages_read IS 'pages read back into the cache';
 COMMENT ON COLUMN abacus_progress.pages_written IS 'pages written';
 COMMENT ON COLUMN abacus_progress.threads IS 'threads that compute at this moment: 1 is the session''s; several work for it, and it serves them';
+COMMENT ON COLUMN abacus_progress.busy IS 'processors that all threads together have kept busy since the function began, on average';
+COMMENT ON COLUMN abacus_progress.session_busy IS 'what the session''s own thread has taken of one processor since then: near 1, it is what the others wait for';
 GRANT SELECT ON abacus_progress TO PUBLIC;

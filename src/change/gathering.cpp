@@ -16,6 +16,8 @@ template <int D> constexpr std::size_t worth_sharing = D == 2 ? 1 << 16 : 1 << 1
 constexpr std::size_t gathered_share = 3, least_gathered = std::size_t{4} << 20;
 /// Points from which on there is room for all: nothing is moved then.
 constexpr std::size_t worth_reserving = 1 << 15;
+/// Share of the memory that pages on their way to threads may take.
+constexpr std::size_t in_hand_share = 8;
 /// Points that are gathered between two looks at what threads ask for: some microseconds.
 constexpr std::size_t served_every = 64;
 /// For tests: points of an interval on average, unless there would be too many of them.
@@ -153,7 +155,8 @@ template <int D> void Gathering<D>::report_pass(std::uint64_t done) {
 
 /// What the cache of each may take.
 template <int D> std::size_t Gathering<D>::thread_cache_bytes() const {
-    return (work_.cache_bytes - work_.cache_bytes / gathered_share) / host_.threads();
+    return (work_.cache_bytes - work_.cache_bytes / gathered_share - work_.in_hand.bytes()) /
+           host_.threads();
 }
 
 /// Starts the first pass; false if the system grants no thread, or no points are left for it.
@@ -169,6 +172,7 @@ template <int D> bool Gathering<D>::begin_work() {
     how_ = user_->begin_sharing();
     if (working_.size() > 0 && begin_pass()) return true;
     user_->end_sharing();
+    store_in_hand();
     return false;
 }
 
@@ -187,6 +191,7 @@ template <int D> void Gathering<D>::end_work() {
     while (end_pass() && begin_pass()) {
     }
     user_->end_sharing();
+    store_in_hand();
     work_.forget_cache();
     for (std::size_t i = 0; i < left_.size(); ++i) {
         if (i % 256 == 0) host_.poll();
@@ -275,10 +280,27 @@ template <int D> void Gathering<D>::insert_near_borders(const Cuts &cuts) {
 template <int D> void Gathering<D>::hand_over(const Cuts &cuts) {
     typename Workspace<D>::Core &core = *work_.core;
     for (std::size_t i = 1; i < cuts.size(); ++i) core.cache.cut(cuts.first(i));
+    work_.in_hand.begin(ABACUS_SIMPLEX_PAGES, work_.cache_bytes / in_hand_share);
     core.cache.flush(false); // as packing would move the borders
+    work_.in_hand.end(host_);
+    crew_->hand_out(work_.in_hand);
+    const PagesInHand::Count &kept = work_.in_hand.kept();
+    core.cache.counters.stores -= kept.pages;
+    core.cache.counters.rewrites -= kept.new_versions;
+    core.cache.counters.bytes_written -= kept.bytes;
     work_.facts->census.simplices = static_cast<std::uint64_t>(core.mesh.simplices());
     work_.facts->census.ghosts = static_cast<std::uint64_t>(core.mesh.ghosts());
     work_.forget_cache();
+}
+
+/// Threads have counted those that they have stored, as new versions of the pages in hand.
+template <int D> void Gathering<D>::store_in_hand() {
+    abacus_counters &counters = work_.counters();
+    const std::size_t stored_first = work_.in_hand.stored_first();
+    const PagesInHand::Count rest = work_.in_hand.store(host_);
+    counters.stores += rest.pages;
+    counters.rewrites += rest.new_versions - stored_first;
+    counters.bytes_written += rest.bytes;
 }
 
 template class Gathering<2>;

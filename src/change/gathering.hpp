@@ -117,8 +117,10 @@ private:
     /// Inserts gathered points that threads would put off.
     void insert_near_borders(const Cuts &cuts);
     void report_pass(std::uint64_t done);
-    /// Writes everything and begins with an empty cache.
+    /// Hands the pages to the threads and begins with an empty cache.
     void hand_over(const Cuts &cuts);
+    /// After the threads: stores what none of them has changed.
+    void store_in_hand();
 
     Workspace<D> &work_;
     const Host &host_;

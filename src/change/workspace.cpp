@@ -24,15 +24,16 @@ Workspace<D>::Core::Core(const Host &host, const abacus_facts &facts, std::size_
 
 template <int D>
 Workspace<D>::Workspace(const Host &the_host, const abacus_facts &the_facts, std::size_t the_bytes)
-    : host(the_host), attributes(the_facts.columns.attributes), cache_bytes(the_bytes),
-      budget(the_bytes), domain(domain_of<D>(the_facts.form)),
+    : host(the_host), in_hand(host), cache_host(host, in_hand),
+      attributes(the_facts.columns.attributes), cache_bytes(the_bytes), budget(the_bytes),
+      domain(domain_of<D>(the_facts.form)),
       repeated(std::in_place, host, domain, the_facts.columns.attributes) {
     if (the_facts.columns.apart != 0) apart.emplace(host, domain, the_facts.columns.attributes);
     make_core(the_facts);
 }
 
 template <int D> void Workspace<D>::make_core(const abacus_facts &of) {
-    core.emplace(host, of, budget, apart ? &*apart : nullptr);
+    core.emplace(cache_host, of, budget, apart ? &*apart : nullptr);
     core->mesh.is_constrained = of.standing == ABACUS_CONSTRAINED;
     core->removal.set_lines(lines);
     if (changes != nullptr) core->mesh.log = &changes->log();

@@ -11,6 +11,7 @@
 #include "change/simplex_changes.hpp"
 #include "delaunay/insertion.hpp"
 #include "delaunay/removal.hpp"
+#include "host/pages_in_hand.hpp"
 #include "points/record.hpp"
 #include "points/record_sink.hpp"
 #include "points/repeated_points.hpp"
@@ -91,6 +92,8 @@ template <int D> struct Workspace {
     static constexpr std::size_t most_at_once = 64; ///< points whose codes are computed together
 
     const Host &host;
+    PagesInHand in_hand;           ///< of simplices, on their way to threads
+    const Host cache_host;         ///< the host, but for these
     const unsigned attributes;     ///< their number
     const std::size_t cache_bytes; ///< for all caches and what is gathered for them
     std::size_t budget;            ///< of them the bytes for the cache of the core

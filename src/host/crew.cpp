@@ -34,7 +34,8 @@ private:
 Crew *Crew::first_ = nullptr;
 
 Crew::Crew(const Host &host)
-    : host_(host), host_memory_(host), couriers_(&host_memory_), threads_(&host_memory_) {
+    : host_(host), host_memory_(host), desk_(host), couriers_(&host_memory_),
+      threads_(&host_memory_) {
     // Threads, like the session, decide themselves how much memory they use: caches have budgets.
     const std::size_t any = std::numeric_limits<std::size_t>::max() / 2;
     memory_.reserve(host.most_thread_bytes() != 0 ? host.most_thread_bytes() : any);

@@ -91,6 +91,9 @@ public:
     /// Stops the threads of all crews at work in this process: for a session that ends.
     static void stop_all() noexcept;
 
+    /// Pages that threads find besides the host's, from the next begin() on.
+    void hand_out(PagesInHand &pages) { desk_.hand_out(pages); }
+
     ThreadMemory &memory() { return memory_; }
     const Desk &desk() const { return desk_; }
 

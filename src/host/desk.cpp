@@ -79,25 +79,25 @@ bool Desk::serve(const Host &host, Courier &courier) {
     bool found = true;
     switch (request->wish) {
     case Courier::Wish::find:
-        found = host.find(request->kind, page.key, page);
+        found = in_hand_->find(host, request->kind, page.key, page);
         break;
     case Courier::Wish::fetch:
-        found = host.fetch(request->kind, page);
+        found = in_hand_->fetch(host, request->kind, page);
         break;
     case Courier::Wish::next: {
         const abacus_key key = page.key;
-        found = host.next(request->kind, &key, page);
+        found = in_hand_->next(host, request->kind, &key, page);
         break;
     }
     case Courier::Wish::first:
-        found = host.next(request->kind, nullptr, page);
+        found = in_hand_->next(host, request->kind, nullptr, page);
         break;
     case Courier::Wish::put:
         page.bytes = request->bytes;
-        host.put(request->kind, page);
+        in_hand_->put(host, request->kind, page);
         break;
     case Courier::Wish::erase:
-        host.erase(request->kind, page);
+        in_hand_->erase(host, request->kind, page);
         break;
     }
     const bool is_put = request->wish == Courier::Wish::put;

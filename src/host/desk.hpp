@@ -18,7 +18,7 @@
 #pragma once
 
 #include "host/arena.hpp"
-#include "host/host.hpp"
+#include "host/pages_in_hand.hpp"
 
 #include <chrono>
 #include <condition_variable>
@@ -30,13 +30,15 @@ class Courier;
 
 class Desk {
 public:
-    Desk() = default;
+    explicit Desk(const Memory &memory) : none_in_hand_(memory) {}
     Desk(const Desk &) = delete;
     Desk &operator=(const Desk &) = delete;
 
     /// For the session's thread, while no other uses the desk: so many threads begin to work. What
     /// was left of earlier work is forgotten.
     void open(unsigned threads);
+    /// Threads find these pages, too, and store them. They have to be there while threads work.
+    void hand_out(PagesInHand &pages) { in_hand_ = &pages; }
     /// From now on all requests fail, and those who wait are woken. For any thread.
     void close() noexcept;
     /// For a thread: its work has ended.
@@ -71,6 +73,8 @@ private:
 
     mutable std::mutex lock_;
     Courier *first_ = nullptr; // of those that have a place here
+    PagesInHand none_in_hand_;
+    PagesInHand *in_hand_ = &none_in_hand_;
     std::condition_variable asked_;
     std::size_t open_requests_ = 0; // asked and not served
     unsigned at_work_ = 0;          // threads

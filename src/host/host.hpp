@@ -21,6 +21,9 @@ public:
     /// `watch` gets to know of stored pages, unless it is null.
     explicit Host(const abacus_host &table, PageWatch *watch = nullptr)
         : Memory(table.context, table.resize), Control(table), Pages(table, watch), Spools(table) {}
+    /// The same host, but for pages that are kept.
+    Host(const Host &host, PageKeeper &keeper)
+        : Memory(host), Control(host), Pages(host, keeper), Spools(host) {}
 };
 
 } // namespace abacus

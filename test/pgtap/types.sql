@@ -184,7 +184,7 @@ SELECT is_empty(
 SELECT ok(has_server_privilege('public', 'abacus', 'USAGE'), 'everyone may publish');
 SELECT has_view('abacus_progress');
 SELECT ok(has_table_privilege('public', 'abacus_progress', 'SELECT'), 'progress is for everyone');
-SELECT columns_are('abacus_progress', ARRAY['pid', 'mesh', 'phase', 'done', 'total', 'per_second', 'time_left', 'elapsed', 'pages_read', 'pages_written', 'threads']);
+SELECT columns_are('abacus_progress', ARRAY['pid', 'mesh', 'phase', 'done', 'total', 'per_second', 'time_left', 'elapsed', 'pages_read', 'pages_written', 'threads', 'busy', 'session_busy']);
 
 SELECT isnt(abacus_version(), NULL, 'the module is loaded');
 SELECT is(current_setting('abacus.cache_size'), '128MB', 'default cache');

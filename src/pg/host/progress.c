@@ -10,6 +10,8 @@
  */
 #include "postgres.h"
 
+#include <time.h>
+
 #include "commands/progress.h"
 #include "utils/backend_progress.h"
 #include "utils/backend_status.h"
@@ -28,6 +30,58 @@
 #define PROGRESS_MAGIC INT64CONST(0x616261637573)	/* "abacus" */
 
 /*
+ * The slot of threads has their number in its lowest bits. Above are two numbers of processors, in
+ * thousandths: those that all threads keep busy, and what the session's thread takes of one.
+ */
+#define THREAD_BITS 16
+#define BUSY_BITS 23
+#define BUSY_LIMIT ((INT64CONST(1) << BUSY_BITS) - 1)
+
+/* That of the last work in this session with several threads. */
+static ProcessorTime last_with_threads;
+
+static int64
+read_clock(clockid_t clock)
+{
+	struct timespec time = {0, 0};
+
+	clock_gettime(clock, &time);
+	return time.tv_sec * INT64CONST(1000000000) + time.tv_nsec;
+}
+
+static ProcessorTime
+processor_time(void)
+{
+	ProcessorTime now = {read_clock(CLOCK_MONOTONIC), read_clock(CLOCK_PROCESS_CPUTIME_ID),
+	read_clock(CLOCK_THREAD_CPUTIME_ID)};
+
+	return now;
+}
+
+/* Since the work began. */
+static ProcessorTime
+time_used(const Progress *state)
+{
+	ProcessorTime used = processor_time();
+
+	used.elapsed -= state->began.elapsed;
+	used.all -= state->began.all;
+	used.session -= state->began.session;
+	return used;
+}
+
+static int64
+pack_threads(const Progress *state, uint32 threads)
+{
+	ProcessorTime used = time_used(state);
+	int64		elapsed = Max(used.elapsed, 1);
+	int64		all = Min((int64) (used.all * 1000.0 / elapsed), BUSY_LIMIT);
+	int64		session = Min((int64) (used.session * 1000.0 / elapsed), BUSY_LIMIT);
+
+	return (session << BUSY_BITS | all) << THREAD_BITS | Min(threads, (1 << THREAD_BITS) - 1);
+}
+
+/*
  * Does nothing within a command that reports its own progress: COPY of our rows, COPY into a table
  * that a mesh follows, or a function of ours whose source query this is.
  */
@@ -42,6 +96,7 @@ progress_begin(Progress *state, Oid mesh)
 	int64		values[] = {PROGRESS_CREATEIDX_PHASE_BUILD, now, now, PROGRESS_MAGIC};
 
 	MemSet(state, 0, sizeof(*state));
+	state->began = processor_time();
 	if (MyBEEntry == NULL || MyBEEntry->st_progress_command != PROGRESS_COMMAND_INVALID)
 		return;
 	pgstat_progress_start_command(PROGRESS_COMMAND_CREATE_INDEX, mesh);
@@ -78,11 +133,13 @@ progress_report(Progress *state, const abacus_progress *progress)
 		(int64) (state->earlier_done + progress->done),
 		(int64) (state->earlier_read + progress->pages_read),
 		(int64) (state->earlier_written + progress->pages_written),
-		progress->threads
+		0
 	};
 
 	if (!state->active)
 		return;
+	values[lengthof(values) - 1] = pack_threads(state, progress->threads);
+	state->had_threads |= progress->threads > 0;
 	if (progress->phase != state->phase)
 	{
 		/* phases that return with each batch count as one: the rate is that of all batches */
@@ -98,5 +155,15 @@ progress_end(Progress *state)
 {
 	if (state->active)
 		pgstat_progress_end_command();
+	if (state->active && state->had_threads)
+		last_with_threads = time_used(state);
 	state->active = false;
+}
+
+/* False if there was none. */
+bool
+progress_last_with_threads(ProcessorTime *used)
+{
+	*used = last_with_threads;
+	return used->elapsed > 0;
 }

@@ -79,12 +79,19 @@ template <int D> void PlacesTogether<D>::cut() {
 }
 
 /// The work of all threads; or of one thread, on the first unfinished piece.
+///
+/// A thread goes on with the piece behind its last one, whose pages it may have, as long as nobody
+/// has begun there.
 template <int D> class PlacesTogether<D>::Round final : public Crew::Work {
 public:
-    explicit Round(PlacesTogether &all) : all_(all), first_(all.first_) {}
+    Round(PlacesTogether &all, unsigned threads, std::size_t pieces)
+        : all_(all), first_(all.first_), is_taken_(all.host_), next_(all.host_, threads) {
+        is_taken_.resize(pieces);
+        std::fill(is_taken_.begin(), is_taken_.end(), false);
+    }
 
-    void piece(std::size_t number, const Host &host) override {
-        all_.answer(all_.pieces_[first_ + number], host);
+    void piece(std::size_t, const Host &host) override {
+        all_.answer(all_.pieces_[first_ + take(next_.get(host))], host);
     }
     void meanwhile() override {
         all_.tell_some();
@@ -93,14 +100,46 @@ public:
     bool is_busy() const override { return all_.has_to_tell(); }
 
 private:
+    struct Next {
+        explicit Next(const Host &) {}
+        std::size_t piece = std::numeric_limits<std::size_t>::max();
+    };
+
+    /// As many pieces are taken as there are.
+    std::size_t take(Next &next) {
+        const std::lock_guard guard(lock_);
+        const bool goes_on = next.piece < is_taken_.size() && !is_taken_[next.piece];
+        const std::size_t piece = goes_on ? next.piece : middle_of_longest();
+        is_taken_[piece] = true;
+        next.piece = piece + 1;
+        return piece;
+    }
+    /// Of the stretches that nobody has taken; the beginning of all pieces if that is free.
+    std::size_t middle_of_longest() const {
+        if (!is_taken_[0]) return 0;
+        std::size_t middle = 0, longest = 0;
+        for (std::size_t begin = 0, end; begin < is_taken_.size(); begin = end) {
+            for (end = begin; end < is_taken_.size() && !is_taken_[end];) ++end;
+            if (end - begin > longest) {
+                longest = end - begin;
+                middle = begin + longest / 2;
+            }
+            while (end < is_taken_.size() && is_taken_[end]) ++end;
+        }
+        return middle;
+    }
+
     PlacesTogether &all_;
     const std::size_t first_;
+    std::mutex lock_;
+    Arena<bool> is_taken_; // pieces, from the first on
+    OfEachThread<Next> next_;
 };
 
 template <int D> bool PlacesTogether<D>::answer() {
     cut();
     const auto run = [&](unsigned threads, std::size_t pieces) {
-        Round round(*this);
+        Round round(*this, threads, pieces);
         const bool has_run = crew_.run(threads, pieces, round);
         pages_read_ += crew_.desk().pages_read();
         return has_run;

@@ -17,6 +17,7 @@
 #include "abacus/locate.h"
 #include "abacus/octree.h"
 #include "pg/base/sql_function.h"
+#include "pg/host/progress.h"
 #include "pg/mesh/mesh_cache.h"
 #include "pg/mesh/reader.h"
 #include "pg/sql/rows/result.h"
@@ -214,6 +215,20 @@ report_domain(Reader *reader)
 						 "keys. This takes as long as building the mesh.")));
 }
 
+/* How well threads were used, which differs from machine to machine, so no mesh stores it. */
+static void
+put_busy(Figures *figures)
+{
+	ProcessorTime used;
+
+	if (!progress_last_with_threads(&used))
+		return;
+	put_figure(figures, "session_busy_all", (double) used.all / used.elapsed,
+			   "processors that this session's last work with several threads kept busy, of any mesh");
+	put_figure(figures, "session_busy_own", (double) used.session / used.elapsed,
+			   "what the session's own thread took of one processor meanwhile");
+}
+
 /* abacus_stats(mesh regclass) -> name, value, description */
 Datum
 abacus_sql_stats(PG_FUNCTION_ARGS)
@@ -251,6 +266,8 @@ abacus_sql_stats(PG_FUNCTION_ARGS)
 		figures.prefix = "session_";
 		put_counters(&figures, &counters, reader->header.facts.form.type, true);
 	}
+	figures.prefix = "";
+	put_busy(&figures);
 	host_destroy(reader->host);
 	PG_RETURN_NULL();
 }
