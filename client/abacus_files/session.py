@@ -28,16 +28,20 @@ def check_form(rows, types, sent):
 
 
 class Session:
-    """Runs queries in turn; each is a pair of SQL and the types of its columns."""
+    """Runs queries in turn; each is a pair of SQL and the types of its columns. `snapshot`: as pg_export_snapshot() returned it to a session
+    that is still in its transaction."""
 
-    def __init__(self, database):
+    def __init__(self, database, snapshot=None):
         self.database = database
+        self.snapshot = snapshot
         self.rest = b""
 
     def __enter__(self):
         self.messages = tempfile.TemporaryFile()  # a pipe that is full of warnings would stop psql
         self.psql = psql.start(self.database, options="-c client_min_messages=warning", stderr=self.messages)
-        self.send("BEGIN ISOLATION LEVEL REPEATABLE READ READ ONLY")
+        # in one piece, since psql's own queries would come in between
+        taken = "" if self.snapshot is None else f"; SET TRANSACTION SNAPSHOT {psql.literal(self.snapshot)}"
+        self.send("BEGIN ISOLATION LEVEL REPEATABLE READ READ ONLY" + taken)
         return self
 
     def __exit__(self, kind, value, trace):

@@ -63,6 +63,7 @@
 #include "abacus/regions.h"
 #include "abacus/scan.h"
 #include "abacus/shapes.h"
+#include "abacus/shares.h"
 #include "abacus/simplex.h"
 #include "abacus/standing.h"
 #include "abacus/surface.h"

@@ -2,11 +2,13 @@
 #pragma once
 
 #include "query/scan/simplex_labels.hpp"
+#include "query/shares/cut.hpp"
 #include "query/values/interpolation.hpp"
 
 #include "capi/dimension.hpp"
 
 #include <cmath>
+#include <tuple>
 
 struct abacus_mesh {
     abacus_mesh(const abacus_host *table, const abacus_facts &facts, std::size_t cache_bytes)
@@ -17,6 +19,8 @@ struct abacus_mesh {
     abacus::ByDimension<abacus::Reader> reader;
     abacus::ByDimension<abacus::Interpolation> interpolation;
     abacus::ByDimension<abacus::SimplexLabels> labels;
+    /// The last cut into parts, if there was one, in the dimension of the mesh.
+    std::tuple<std::optional<abacus::Cut<2>>, std::optional<abacus::Cut<3>>> cuts;
 };
 
 namespace abacus {

@@ -14,6 +14,40 @@ void ExactSum::carry() {
     added_ = 0;
 }
 
+void ExactSum::add(const ExactSum &other) {
+    ExactSum more = other;
+    more.carry();
+    carry(); // so that digits have room
+    for (std::size_t i = 0; i < size; ++i) digits_[i] += more.digits_[i];
+    added_ = 1;
+}
+
+ExactSum ExactSum::times(std::uint32_t factor) const {
+    ExactSum product = *this;
+    product.carry();
+    __int128 over = 0;
+    for (std::size_t i = 0; i < size; ++i) {
+        over += static_cast<__int128>(product.digits_[i]) * factor;
+        if (i + 1 == size) { // the greatest has the sign
+            product.digits_[i] = static_cast<std::int64_t>(over);
+            break;
+        }
+        const auto digit = static_cast<std::uint32_t>(over);
+        product.digits_[i] = digit;
+        over = (over - digit) >> digit_bits;
+    }
+    return product;
+}
+
+bool ExactSum::operator<(const ExactSum &other) const {
+    ExactSum difference = *this, less = other;
+    difference.carry();
+    less.carry();
+    for (std::size_t i = 0; i < size; ++i) difference.digits_[i] -= less.digits_[i];
+    difference.carry();
+    return difference.digits_.back() < 0;
+}
+
 double ExactSum::value() const {
     if (special_ != 0) return special_; // also NaN
     ExactSum sum = *this;

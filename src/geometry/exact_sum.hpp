@@ -35,6 +35,11 @@ public:
         digit[2] += sign * static_cast<std::int64_t>(wide >> 64);
         if (++added_ == most_added) carry();
     }
+    /// Sums without infinities and NaN.
+    void add(const ExactSum &other);
+    ExactSum times(std::uint32_t factor) const;
+    bool operator<(const ExactSum &other) const;
+    bool is_zero() const { return value() == 0; }
     /// The double nearest to the sum; infinite beyond all of them, or after an infinite summand.
     double value() const;
 

@@ -3,7 +3,8 @@
 namespace abacus {
 
 template <int D>
-PageBoxes<D>::PageBoxes(const Host &host, const abacus_facts &facts, std::size_t bytes)
+PageBoxes<D>::PageBoxes(const Host &host, const abacus_facts &facts, std::size_t bytes,
+                        const std::function<void(const PageView<D> &)> &visit)
     : keys_(host), boxes_(host), tree_(host) {
     const std::size_t most =
         std::max<std::size_t>(16, bytes / (sizeof(Key) + BoxTree<D>::bytes_per_box));
@@ -26,6 +27,7 @@ PageBoxes<D>::PageBoxes(const Host &host, const abacus_facts &facts, std::size_t
             box.upper[i] = scan.page().box(D + i);
         }
         boxes_.back().extend(box);
+        if (visit) visit(scan.page());
     }
     for (const Box<D> &box : boxes_) tree_.add(box);
     tree_.finish();

@@ -8,11 +8,15 @@
 #include "geometry/box_tree.hpp"
 #include "query/pages/page_scan.hpp"
 
+#include <functional>
+
 namespace abacus {
 
 template <int D> class PageBoxes {
 public:
-    PageBoxes(const Host &host, const abacus_facts &facts, std::size_t bytes);
+    /// `visit`, unless it is empty, gets each page, so that no other pass is needed.
+    PageBoxes(const Host &host, const abacus_facts &facts, std::size_t bytes,
+              const std::function<void(const PageView<D> &)> &visit = {});
 
     /// Calls visit(from, to) for intervals of keys, which end at pages; no page outside them has p
     /// in its box. Stops when it returns false.
@@ -24,6 +28,21 @@ public:
         tree_.visit(box, [&](std::size_t i) {
             return visit(keys_[i], i + 1 < keys_.size() ? keys_[i + 1] : end_key);
         });
+    }
+    /// The number of boxes, and where the pages of a box begin; those of the last end with the
+    /// curve.
+    std::size_t size() const { return keys_.size(); }
+    Key begin(std::size_t i) const { return i < keys_.size() ? keys_[i] : end_key; }
+    /// Which box the page that owns the key belongs to.
+    std::size_t of(const Key &key) const {
+        const auto *const above = std::partition_point(
+            keys_.begin(), keys_.end(), [&key](const Key &begin) { return begin <= key; });
+        return static_cast<std::size_t>(above - keys_.begin()) - (above != keys_.begin() ? 1 : 0);
+    }
+    /// Calls visit(number) for the boxes that meet a box, in order, until it returns false; returns
+    /// whether it did not.
+    template <class Visit> bool numbers(const Box<D> &box, Visit visit) const {
+        return tree_.visit(box, visit);
     }
     /// The box around all of them.
     Box<D> around_all() const { return tree_.around_all(); }

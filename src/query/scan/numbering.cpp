@@ -1,8 +1,7 @@
 #include "query/scan/numbering.hpp"
 
-#include "blocks/bit_column.hpp"
-#include "keys/domain_of.hpp"
 #include "query/pages/page_simplex.hpp"
+#include "query/scan/vertex_names.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -11,17 +10,10 @@ namespace abacus {
 
 namespace {
 
-/// Words that distinguish a vertex from others, and give their order: its code, its coordinates; if
-/// vertices share their places, also its id, with its sign flipped.
-template <int D> std::size_t key_words(const abacus_facts &facts) {
-    return 1 + D + (facts.census.split > 0 ? 1 : 0);
-}
-constexpr std::uint64_t sign = std::uint64_t{1} << 63;
-
 /// Calls add(page, vertex) for all vertices of all pages; add() returns room for the key.
 template <int D, class Add>
 void name_vertices(const Host &host, const abacus_facts &facts, Add add) {
-    const Domain<D> domain = domain_of<D>(facts.form);
+    const VertexNames<D> names(facts);
     PageScan<D> pages(host, facts);
     Pacer pacer(host);
     std::uint64_t seen = 0; // simplices
@@ -29,13 +21,7 @@ void name_vertices(const Host &host, const abacus_facts &facts, Add add) {
     while (pages.advance()) {
         const PageView<D> &page = pages.page();
         pacer.reached(seen += static_cast<std::uint64_t>(page.simplices()));
-        for (int v = 0; v < page.vertices(); ++v) {
-            const Point<D> &p = page.point(v);
-            std::uint64_t *key = add(page, v);
-            *key++ = domain.code(p);
-            for (const double x : p) *key++ = ordered(x);
-            if (facts.census.split > 0) *key = static_cast<std::uint64_t>(page.id(v)) ^ sign;
-        }
+        for (int v = 0; v < page.vertices(); ++v) names.write(page, v, add(page, v));
     }
 }
 
@@ -45,13 +31,13 @@ void name_vertices(const Host &host, const abacus_facts &facts, Add add) {
 template <int D>
 NumberedVertices<D>::NumberedVertices(const Host &host, const abacus_facts &facts,
                                       std::size_t memory)
-    : vertex_values_(host, facts), key_(key_words<D>(facts)),
+    : vertex_values_(host, facts), key_(VertexNames<D>(facts).words()),
       named_(host, 1 + D + 1 + static_cast<unsigned>(page_attributes(facts.columns)), key_, memory),
       left_(facts.census.vertices), current_(host), apart_(host) {
     named_.expect(static_cast<double>(facts.census.vertices)); // several pages name most vertices
     name_vertices<D>(host, facts, [&](const PageView<D> &page, int v) {
         std::uint64_t *const name = named_.add(), *rest = name + 1 + D;
-        *rest++ = static_cast<std::uint64_t>(page.id(v)) ^ sign;
+        *rest++ = static_cast<std::uint64_t>(page.id(v)) ^ id_sign;
         if (!vertex_values_.are_apart())
             vertex_values_.all(page, v, reinterpret_cast<double *>(rest));
         return name;
@@ -76,7 +62,7 @@ template <int D> bool NumberedVertices<D>::next(abacus_vertex &vertex) {
     vertex = {};
     for (int axis = 0; axis < D; ++axis) vertex.point[axis] = from_ordered(current_[1 + axis]);
     const std::uint64_t *const rest = current_.data() + 1 + D;
-    vertex.id = vertex.vertex = static_cast<std::int64_t>(rest[0] ^ sign);
+    vertex.id = vertex.vertex = static_cast<std::int64_t>(rest[0] ^ id_sign);
     vertex.attributes = reinterpret_cast<const double *>(rest + 1);
     if (vertex_values_.are_apart()) {
         Point<D> p;
@@ -90,7 +76,7 @@ template <int D> bool NumberedVertices<D>::next(abacus_vertex &vertex) {
 template <int D>
 NumberedSimplices<D>::NumberedSimplices(const Host &host, const abacus_facts &facts,
                                         std::size_t memory)
-    : domain_(domain_of<D>(facts.form)), ranks_(host, key_words<D>(facts), memory),
+    : domain_(domain_of<D>(facts.form)), ranks_(host, VertexNames<D>(facts).words(), memory),
       pages_(host, facts), numbers_(host) {
     ranks_.expect(static_cast<double>(facts.census.vertices));
     name_vertices<D>(host, facts, [&](const PageView<D> &, int) { return ranks_.add(); });
