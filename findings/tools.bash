@@ -19,6 +19,15 @@ unpack() {
     done
 }
 
+# unpack_postgis: PostgreSQL 15 with PostGIS 3.3.2. An installation links the control files.
+unpack_postgis() {
+    unpack postgresql-15=15.20-0+deb12u1 postgresql-client-15=15.20-0+deb12u1 libpq5=15.20-0+deb12u1 \
+        postgresql-15-postgis-3=3.3.2+dfsg-1+b1 postgresql-15-postgis-3-scripts=3.3.2+dfsg-1
+    for control in "$tmp"/usr/share/postgresql/15/extension/*-3.control; do
+        mv "$control" "${control%-3.control}.control"
+    done
+}
+
 # start_server: a server of the PostgreSQL 15 in $tmp, whose socket is there; no root may run it.
 start_server() {
     PATH=$tmp/usr/lib/postgresql/15/bin:$PATH
