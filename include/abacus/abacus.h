@@ -67,6 +67,7 @@
 #include "abacus/simplex.h"
 #include "abacus/standing.h"
 #include "abacus/surface.h"
+#include "abacus/thin.h"
 #include "abacus/tile.h"
 #include "abacus/values.h"
 #include "abacus/volume.h"

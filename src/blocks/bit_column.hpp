@@ -135,10 +135,12 @@ public:
 
     /// Whether the head lets a word be from `least` to `greatest`; true where a word is.
     bool may_have(std::uint64_t least, std::uint64_t greatest) const {
-        const std::uint64_t span = fields_.most() << shift_;
-        const bool wraps = base_ + span < base_; // only in a forged page
-        return wraps || (base_ <= greatest && least <= base_ + span);
+        return this->least() <= greatest && least <= most();
     }
+    /// As far as the head shows, no word is less than this, ...
+    std::uint64_t least() const { return wraps() ? 0 : base_; }
+    /// ... or greater than this.
+    std::uint64_t most() const { return wraps() ? ~std::uint64_t{0} : base_ + span(); }
 
     /// Whether not all words are 0.
     bool is_not_zero() const { return base_ != 0 || fields_.width() != 0; }
@@ -146,6 +148,10 @@ public:
     static constexpr unsigned prefix_bits = 14;
 
 private:
+    std::uint64_t span() const { return fields_.most() << shift_; }
+    /// Whether the head lets words exceed 64 bits: then any word may be there.
+    bool wraps() const { return base_ + span() < base_; }
+
     BitFields fields_;
     std::uint64_t base_ = 0;
     unsigned shift_ = 0;

@@ -10,18 +10,12 @@
 // errors are those of lengths within the simplex, not of where it lies.
 #pragma once
 
-#include "geometry/point.hpp"
+#include "geometry/linear_piece.hpp"
 
 #include <array>
 #include <cmath>
 
 namespace abacus {
-
-/// A simplex, and a function that is linear in it by its values at the corners.
-template <int D> struct Piece {
-    std::array<Point<D>, D + 1> corner;
-    std::array<double, D + 1> value;
-};
 
 template <int D> using Sides = std::array<double, D + 1>;
 

@@ -8,6 +8,7 @@ SELECT has_type('abacus_simplex_page');
 SELECT has_type('abacus_vertex_page');
 SELECT has_type('abacus_line_point');
 SELECT has_type('abacus_region_part');
+SELECT has_type('abacus_thinning');
 SELECT is(typstorage::text || typalign::text, 'pd', 'pages are plain and aligned to doubles')
 FROM pg_type WHERE typname = 'abacus_page';
 SELECT has_cast('bytea', 'abacus_page');
@@ -139,9 +140,11 @@ INSERT INTO wanted VALUES
     ('abacus_slope', 'mesh regclass, x double precision, y double precision, attribute text DEFAULT NULL::text, max_edge double precision DEFAULT NULL::double precision, within text DEFAULT NULL::text, OUT slope double precision, OUT aspect double precision', 'record', 's', false, 's'),
     ('abacus_walk', 'mesh regclass, simplex abacus_simplex, facet integer', 'abacus_simplex', 's', true, 's'),
     ('abacus_simplices', 'mesh regclass', 'SETOF abacus_simplex', 's', true, 's'),
+    ('abacus_thin_build', 'IN mesh regclass, IN new_mesh text, IN max_error double precision, IN attribute text DEFAULT NULL::text, IN keep text DEFAULT NULL::text, IN target bigint DEFAULT NULL::bigint', NULL, 'v', false, 'u'),
     ('abacus_build', 'IN mesh regclass, IN batch bigint DEFAULT 1000000', NULL, 'v', false, 'u'),
     ('abacus_check', 'mesh regclass, max_faults integer DEFAULT 1000, OUT fault text, OUT code bigint, OUT part bigint, OUT message text', 'SETOF record', 's', false, 's'),
     ('abacus_stats', 'mesh regclass, OUT name text, OUT value double precision, OUT description text', 'SETOF record', 'v', true, 'r'),
+    ('abacus_thin', 'mesh regclass, new_mesh text, max_error double precision, attribute text DEFAULT NULL::text, keep text DEFAULT NULL::text, target bigint DEFAULT NULL::bigint', 'double precision', 'v', false, 'u'),
     ('abacus_volume', 'mesh regclass, base double precision, attribute text DEFAULT NULL::text, lower double precision[] DEFAULT NULL::double precision[], upper double precision[] DEFAULT NULL::double precision[], max_edge double precision DEFAULT NULL::double precision, within text DEFAULT NULL::text, OUT area double precision, OUT surface double precision, OUT cut double precision, OUT fill double precision, OUT net double precision', 'record', 's', false, 's'),
     ('abacus_volume', 'mesh regclass, other regclass, attribute text DEFAULT NULL::text, lower double precision[] DEFAULT NULL::double precision[], upper double precision[] DEFAULT NULL::double precision[], max_edge double precision DEFAULT NULL::double precision, other_attribute text DEFAULT NULL::text, within text DEFAULT NULL::text, OUT area double precision, OUT surface double precision, OUT cut double precision, OUT fill double precision, OUT net double precision', 'record', 's', false, 's'),
     ('abacus_volume', 'mesh regclass, other text, attribute text DEFAULT NULL::text, lower double precision[] DEFAULT NULL::double precision[], upper double precision[] DEFAULT NULL::double precision[], max_edge double precision DEFAULT NULL::double precision, other_attribute text DEFAULT NULL::text, within text DEFAULT NULL::text, OUT area double precision, OUT surface double precision, OUT cut double precision, OUT fill double precision, OUT net double precision', 'record', 's', false, 's'),

@@ -127,3 +127,15 @@ host_leave(Host *host, abacus_status status)
 			 host->failure.hint[0] != '\0' ? errhint("%s", host->failure.hint) : 0));
 	return status;				/* not reached */
 }
+
+/* The same after a call that has used two hosts: either of them may have failed. */
+abacus_status
+host_leave_both(Host *host, Host *other, abacus_status status)
+{
+	if (status == ABACUS_HOST_ERROR && host->error == NULL)
+		host_leave(other, status);
+	if (status == ABACUS_ERROR && host->failure.kind == ABACUS_ERROR_CORRUPTED)
+		host_doubt_pages(other);
+	host_leave(host, status);
+	return host_leave(other, status);
+}

@@ -68,11 +68,16 @@ extern void host_destroy(Host *host);
 
 extern void host_enter(Host *host);
 extern abacus_status host_leave(Host *host, abacus_status status);
+extern abacus_status host_leave_both(Host *host, Host *other, abacus_status status);
 
 #define host_run(host, function, ...) \
 	host_check((host), function(__VA_ARGS__, &(host)->failure))
 
 /* The same around a call that says itself where its error goes. */
 #define host_check(host, call) (host_enter(host), host_leave((host), (call)))
+
+/* The same for a call that uses two hosts, the first of which gets the core's error. */
+#define host_check_both(host, other, call) \
+	(host_enter(host), host_enter(other), host_leave_both((host), (other), (call)))
 
 #endif

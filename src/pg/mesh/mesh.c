@@ -9,7 +9,7 @@
  *
  * A mesh that has had lines has a third table, of the type abacus_line_point, which is bound and found
  * in the same way. Its name ends in _lines. One that has had regions has a fourth, of the type
- * abacus_region_part, whose name ends in _regions.
+ * abacus_region_part, whose name ends in _regions; one made by thinning, one of the type abacus_thinning.
  */
 #include "postgres.h"
 
@@ -78,9 +78,6 @@ mesh_table_owner(Oid relid)
 static void (*on_restored) (Relation mesh) = NULL;
 
 static Oid	simplex_row_type = InvalidOid;
-static Oid	vertex_row_type = InvalidOid;
-static Oid	line_row_type = InvalidOid;
-static Oid	region_row_type = InvalidOid;
 
 static bool
 is_table_of(Oid relid, const char *name, Oid *known)
@@ -103,23 +100,16 @@ is_simplex_table(Oid relid)
 	return is_table_of(relid, SIMPLEX_PAGE_TYPE, &simplex_row_type);
 }
 
-static bool
-is_vertex_table(Oid relid)
-{
-	return is_table_of(relid, VERTEX_PAGE_TYPE, &vertex_row_type);
-}
-
-static bool
-is_lines_table(Oid relid)
-{
-	return is_table_of(relid, LINE_POINT_TYPE, &line_row_type);
-}
-
-static bool
-is_regions_table(Oid relid)
-{
-	return is_table_of(relid, REGION_PART_TYPE, &region_row_type);
-}
+/* Defines a function that says whether a table is one of this type. */
+#define TABLE_TEST(name, type) \
+	static bool name(Oid relid) \
+	{ \
+		static Oid	known = InvalidOid; return is_table_of(relid, type, &known); \
+	}
+TABLE_TEST(is_vertex_table, VERTEX_PAGE_TYPE)
+TABLE_TEST(is_lines_table, LINE_POINT_TYPE)
+TABLE_TEST(is_regions_table, REGION_PART_TYPE)
+TABLE_TEST(is_thinning_table, THINNING_TYPE)
 
 /* Opens the table of a mesh under the given lock, or says why it cannot be used. */
 static Relation
@@ -145,8 +135,7 @@ open_mesh_table(Oid relid, MeshAccess access, LOCKMODE lock)
 Relation
 mesh_table_open(Oid relid, MeshAccess access)
 {
-	return open_mesh_table(relid, access,
-						   access == MESH_READ ? AccessShareLock : RowExclusiveLock);
+	return open_mesh_table(relid, access, access == MESH_READ ? AccessShareLock : RowExclusiveLock);
 }
 
 /*
@@ -213,6 +202,7 @@ typedef struct SideTable
 static const SideTable vertex_side = {VERTEX_TABLE_SUFFIX, is_vertex_table, "vertex table"};
 static const SideTable lines_side = {LINES_TABLE_SUFFIX, is_lines_table, "table of lines"};
 static const SideTable regions_side = {REGIONS_TABLE_SUFFIX, is_regions_table, "table of regions"};
+static const SideTable thinning_side = {THINNING_TABLE_SUFFIX, is_thinning_table, "table of its thinning"};
 
 /* Such a table of a mesh, found by its name alone; InvalidOid if there is none. */
 static Oid
@@ -330,9 +320,10 @@ open_side_table(Relation mesh, const SideTable *side, MeshAccess access, bool *b
 {
 	Oid			relid = find_side_table(RelationGetRelid(mesh), side, bound);
 
+	if (!OidIsValid(relid))
+		return NULL;
 	/* it may be dropped while we wait for the lock */
-	return OidIsValid(relid)
-		? try_relation_open(relid, access == MESH_READ ? AccessShareLock : RowExclusiveLock) : NULL;
+	return try_relation_open(relid, access == MESH_READ ? AccessShareLock : RowExclusiveLock);
 }
 
 /* Whether a writer should bind a table that is not bound: he must own both. */
@@ -371,11 +362,18 @@ mesh_lines_table(Relation mesh, MeshAccess access)
 	return row_table(mesh, &lines_side, access);
 }
 
-/* The same for the table of its regions. */
+/* The same for the table of its regions, ... */
 Oid
 mesh_regions_table(Relation mesh, MeshAccess access)
 {
 	return row_table(mesh, &regions_side, access);
+}
+
+/* ... and for the one that says how it was thinned. */
+Oid
+mesh_thinning_table(Relation mesh, MeshAccess access)
+{
+	return row_table(mesh, &thinning_side, access);
 }
 
 /* The same for the table of its vertex pages, which must be there. */
@@ -401,6 +399,7 @@ mesh_vertex_table(Relation mesh, MeshAccess access)
 		mesh_bind_table(RelationGetRelid(mesh), relid);
 		(void) mesh_lines_table(mesh, access);
 		(void) mesh_regions_table(mesh, access);
+		(void) mesh_thinning_table(mesh, access);
 		if (on_restored != NULL)
 			on_restored(mesh);
 	}

@@ -1,6 +1,6 @@
 /*
  * mesh.h: the representation of a mesh in the database: two typed tables, and others if it has had lines
- * or regions; found, locked and checked for privileges.
+ * or regions or was thinned; found, locked and checked for privileges.
  */
 #ifndef ABACUS_MESH_H
 #define ABACUS_MESH_H
@@ -17,6 +17,9 @@
 #define REGION_PART_TYPE "abacus_region_part"
 #define REGION_PART_COLUMNS 8
 #define REGIONS_TABLE_SUFFIX "_regions"
+#define THINNING_TYPE "abacus_thinning"
+#define THINNING_COLUMNS 7
+#define THINNING_TABLE_SUFFIX "_thinning"
 
 /* What a caller intends to do, which decides the lock and the privileges it needs. */
 typedef enum MeshAccess
@@ -47,6 +50,7 @@ extern void mesh_bind_object(Oid class, Oid object, Oid mesh);
 extern void mesh_bind_table(Oid mesh, Oid table);
 extern Oid	mesh_lines_table(Relation mesh, MeshAccess access);
 extern Oid	mesh_regions_table(Relation mesh, MeshAccess access);
+extern Oid	mesh_thinning_table(Relation mesh, MeshAccess access);
 extern Oid	mesh_of_trigger(Oid trigger);
 extern void mesh_bind_trigger(Oid mesh, Oid trigger);
 extern void mesh_tell_of_restored(void (*tell) (Relation mesh));

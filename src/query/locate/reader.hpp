@@ -66,6 +66,8 @@ public:
     /// In a mesh with convex border: the simplex around p or, outside the hull, a ghost that has p
     /// strictly beyond its facet; no_handle in an empty mesh. It stays until the next call.
     Handle simplex_around(const Point<D> &p) { return find(p, cache_.domain().code(p)); }
+    /// Whether that point is on a facet of the simplex, which is no ghost.
+    bool is_on_facet() const { return walk_.ends_on_facet(); }
     /// In a mesh that is not convex, and not empty: where its pages are.
     const PageBoxes<D> &boxes();
     /// Whether all of the mesh can be reached by walking: it fills its convex hull, and one can

@@ -132,28 +132,6 @@ require_plane(const Reader *reader)
 				 errhint("In space, give abacus_volume() a base, the value that divides one mesh.")));
 }
 
-/* A call of the core that reads two meshes: either of them may have failed. */
-static void
-measure_between(Reader *first, Reader *second, const abacus_surface *surface,
-				uint32 second_attribute, abacus_volume *volume)
-{
-	Host	   *host = first->host;
-	Host	   *other = second->host;
-	abacus_status status;
-
-	host_enter(host);
-	host_enter(other);
-	status = abacus_volume_between(&host->table, &first->header.facts, surface, &other->table,
-								   &second->header.facts, second_attribute, setting_cache_bytes(),
-								   volume, &host->failure);
-	if (status == ABACUS_HOST_ERROR && host->error == NULL)
-		host_leave(other, status);
-	if (status == ABACUS_ERROR && host->failure.kind == ABACUS_ERROR_CORRUPTED)
-		host_doubt_pages(other);
-	host_leave(host, status);
-	host_leave(other, status);
-}
-
 static Datum
 volume_between(FunctionCallInfo fcinfo, Oid other)
 {
@@ -170,7 +148,11 @@ volume_between(FunctionCallInfo fcinfo, Oid other)
 	units_tell_volumes(&first->header.facts.form);
 	other_attribute = attribute(fcinfo, other_name, abacus_names_of(&second->header));
 	progress_begin(&first->host->progress, PG_GETARG_OID(OF_MESH));
-	measure_between(first, second, &surface, other_attribute, &volume);
+	host_check_both(first->host, second->host,
+					abacus_volume_between(&first->host->table, &first->header.facts, &surface,
+										  &second->host->table, &second->header.facts,
+										  other_attribute, setting_cache_bytes(), &volume,
+										  &first->host->failure));
 	progress_end(&first->host->progress);
 	host_release(first->host);
 	host_release(second->host);
