@@ -8,7 +8,7 @@ const maplibre = folder("node_modules/maplibre-gl/dist/");
 rmSync(folder("dist"), { recursive: true, force: true });
 mkdirSync(folder("dist"));
 await build({
-    entryPoints: [folder("page/plane.js"), folder("page/space.js")],
+    entryPoints: [folder("page/plane.js"), folder("page/space.js"), folder("page/list.js")],
     bundle: true,
     minify: true,
     format: "esm",
@@ -22,4 +22,4 @@ await build({
 for (const name of ["maplibre-gl.mjs", "maplibre-gl-shared.mjs", "maplibre-gl-worker.mjs", "maplibre-gl.css"])
     copyFileSync(maplibre + name, folder(`dist/${name}`));
 copyFileSync(folder("node_modules/uplot/dist/uPlot.min.css"), folder("dist/uplot.css"));
-for (const name of ["index.html", "style.css"]) copyFileSync(folder(`page/${name}`), folder(`dist/${name}`));
+for (const name of ["index.html", "list.html", "style.css", "list.css"]) copyFileSync(folder(`page/${name}`), folder(`dist/${name}`));

@@ -85,7 +85,7 @@ class Session {
             try {
                 await this.open();
                 const { edit } = this;
-                await this.guarded(() => task(this.database.query(edit.client)));
+                await this.step(() => task(this.database.query(edit.client)));
                 edit.xid ??= (await ask(edit.client, "SELECT pg_current_xact_id()::text AS xid")).rows[0].xid;
                 return ++this.changes;
             } finally {
@@ -127,17 +127,25 @@ class Session {
 
     /** What fails undoes itself, not what was before. */
     async guarded(task) {
-        const { client } = this.edit;
-        await ask(client, "SAVEPOINT viewer");
+        const result = await this.step(task);
+        await ask(this.edit.client, "RELEASE SAVEPOINT viewer");
+        return result;
+    }
+
+    /** The same, but what succeeds can be undone later: its savepoint stays, below those of the next steps. */
+    async step(task) {
+        await ask(this.edit.client, "SAVEPOINT viewer");
         try {
-            const result = await task();
-            await ask(client, "RELEASE SAVEPOINT viewer");
-            return result;
+            return await task();
         } catch (error) {
-            if (!(error instanceof Away)) // what cannot be undone alone ends all
-                await ask(client, "ROLLBACK TO SAVEPOINT viewer").catch((cause) => { throw new Away(cause); });
+            if (!(error instanceof Away)) await this.rollBack();
             throw error;
         }
+    }
+
+    /** Undoes all since the last savepoint, and forgets that one. What cannot be undone alone ends all. */
+    rollBack() {
+        return ask(this.edit.client, "ROLLBACK TO SAVEPOINT viewer; RELEASE SAVEPOINT viewer").catch((cause) => { throw new Away(cause); });
     }
 
     read(task, signal) {
@@ -191,6 +199,16 @@ class Session {
             const { changes } = this;
             await this.release();
             return changes;
+        });
+    }
+
+    /** Undoes the last change; how many there still are. */
+    back() {
+        return this.queue(async () => {
+            if (this.changes === 0) return 0;
+            await this.rollBack();
+            if (--this.changes === 0) await this.release();
+            return this.changes;
         });
     }
 

@@ -1,6 +1,6 @@
 // What a browser may ask: each path with the parameters that it takes, checked before anything is
 // sent to the database.
-import { edits, plane, space } from "./queries.js";
+import { edits, kinds, plane, space } from "./queries.js";
 import { Refused } from "./errors.js";
 
 const mostRows = 200_000, mostPathPlaces = 1000;
@@ -63,7 +63,7 @@ async function locate(query, mesh, sql, at, attribute) {
 const at = (p, dimension) => ["x", "y", "z"].slice(0, dimension).map((axis) => p.number(axis));
 const attributeOf = (p, mesh) => p.text("attribute") ?? mesh.attributes[0]?.name ?? null;
 
-export const planeReads = {
+const planeReads = {
     locate: async (p, query, mesh) => {
         const isOfRegions = p.flag("regions"), place = at(p, 2), answer = await locate(query, mesh, plane, place, attributeOf(p, mesh));
         return isOfRegions ? { ...answer, ...(await query(plane.region, place))[0] } : answer;
@@ -85,9 +85,44 @@ export const planeReads = {
             p.number("observer", 0), p.number("target", 0)]))[0],
 };
 
-export const spaceReads = {
+/** What may be asked about another mesh and that of the page: `own` is its oid. */
+export const betweenReads = {
+    volume: async (p, query, mesh, own) => (await query(plane.volume, [own, p.text("own"), attributeOf(p, mesh)]))[0],
+};
+
+const mostOfBody = 200_000; // triangles
+const fewOfBody = 2000; // as few are sent even where six pictures would do
+
+/** The surface of a mesh in space, to be drawn: vertices, each once, with triangles of their numbers and values of the vertices or
+    labels of the triangles. Only "isBox" where six sections are the same, and null of a hull with too many triangles. */
+async function body(p, query, mesh) {
+    if (mesh.lower[0] === null) return { positions: [], triangles: [] };
+    const [{ triangles: count, isBox }] = await query(space.shape, [...mesh.lower, ...mesh.upper]);
+    const label = p.text("label"), attribute = p.text("attribute"), position = (names, name, what) => {
+        const at = name === null ? -1 : names.indexOf(name);
+        if (name !== null && at < 0) throw wrong(`the mesh has no ${what} "${name}"`);
+        return at + 1;
+    };
+    const ofLabel = position(mesh.labels, label, "label"), ofAttribute = position(mesh.attributes.map((one) => one.name), attribute, "attribute");
+    if (isBox && count > fewOfBody && !ofLabel) return { isBox };
+    if (count > mostOfBody) return null;
+    const numbers = new Map(), positions = [], values = [], triangles = [];
+    for (const { vertex, x, y, z, value } of await query(space.body, [ofAttribute])) {
+        const key = `${vertex} ${x} ${y} ${z}`;
+        if (!numbers.has(key)) {
+            numbers.set(key, numbers.size);
+            positions.push(x, y, z);
+            values.push(value);
+        }
+        triangles.push(numbers.get(key));
+    }
+    return { positions, triangles, ...(ofAttribute && { values }), ...(ofLabel && { labels: (await query(space.bodyLabels, [ofLabel])).map((row) => row.label) }) };
+}
+
+const spaceReads = {
     locate: (p, query, mesh) => locate(query, mesh, space, at(p, 3), attributeOf(p, mesh)),
     star: (p, query) => query(space.cells, at(p, 3)),
+    body,
     section: (p, query, mesh) => bounded(query, { text: space.section,
         values: [p.numbers("through", 3, 3), p.numbers("normal", 3, 3), attributeOf(p, mesh)] }),
     isosurface: (p, query, mesh) => bounded(query, { text: space.isosurface, values: [p.number("value"), attributeOf(p, mesh)] }),
@@ -95,6 +130,19 @@ export const spaceReads = {
     /** null if it has so many triangles that their lines would hide all behind them. */
     hull: async (p, query) => atMost(await query(space.hull, [mostOfHull + 1])),
 };
+
+const mostNeighbours = 2000;
+/** The leaf at a place, and those beside it; the codes are text. */
+const octreeReads = {
+    locate: async (p, query, mesh) => {
+        const place = at(p, mesh.dimension), [leaf = null] = await query(octreeQueries(mesh).located, place);
+        return { place, leaf, neighbours: leaf ? await query(octreeQueries(mesh).neighbours, [leaf.code, mostNeighbours]) : [] };
+    },
+};
+const octreeQueries = ({ dimension }) => kinds[`octree${dimension}`];
+
+/** What may be asked about a mesh of a kind and dimension. */
+export const readsOf = ({ kind, dimension }) => (kind === "octree" ? octreeReads : dimension === 2 ? planeReads : spaceReads);
 
 /** A tile: its statement and parameters. */
 export function tile(kind, z, x, y, p, mesh) {
@@ -113,6 +161,61 @@ export function tile(kind, z, x, y, p, mesh) {
     const range = low === null ? null : [low, high > low ? high : low + 1];
     return { text: plane.picture, values: [...values, range, attribute === null ? null : p.text("ramp"), contours,
         attribute === null ? 0 : p.number("exaggeration", 0), p.text("edges") !== "no", p.number("size", 256), within, p.flag("regions")] };
+}
+
+// ---- Pictures of meshes in space, octrees and quadtrees -------------------------------------------
+
+const sideOfBrief = [360, 220], mostSide = 2048;
+
+/** A colour for each value: the attribute or label, the range, and the palette; without any the picture shows the mesh itself. */
+function coloured(p, mesh) {
+    const name = attributeOf(p, mesh), found = mesh.attributes.find((one) => one.name === name);
+    const low = p.number("low", found?.least ?? null), high = p.number("high", found?.greatest ?? null);
+    return { name, range: low === null || high === null ? null : [low, high > low ? high : low + 1], ramp: name === null ? null : p.text("ramp") };
+}
+
+/** Width and height in pixels of a picture of a box of this size. */
+function pixels(width, height, most) {
+    const scale = most / Math.max(width, height);
+    return [width, height].map((side) => Math.min(Math.max(Math.round(side * scale), 16), most));
+}
+
+/** The section across an axis, as large as the mesh. */
+function sectionPicture(p, mesh, most, isBrief = false) {
+    const axis = isBrief ? 1 : ["x", "y", "z"].indexOf(p.text("axis"));
+    if (axis < 0) throw wrong("axis must be x, y or z");
+    const { lower, upper } = mesh, at = isBrief ? (lower[1] + upper[1]) / 2 : p.number("at");
+    if (lower[0] === null) throw new Refused(404, "the mesh is empty");
+    const through = [...lower], normal = [0, 0, 0], sides = upper.map((x, i) => x - lower[i]).filter((_, i) => i !== axis);
+    [through[axis], normal[axis]] = [at, 1];
+    const size = isBrief ? sideOfBrief : pixels(...sides, most), { name, range, ramp } = coloured(p, mesh);
+    return [through, normal, ...size, name, isBrief ? false : p.flag("edges"), lower, upper, isBrief ? (sides[0] * size[1]) / (sides[1] * size[0]) || 1 : 1, range, isBrief ? "strata" : ramp];
+}
+
+/** A quadtree, or a window of it. */
+function wholePicture(p, mesh, most, isBrief = false) {
+    const { lower, upper } = mesh, window = isBrief || p.text("window") === null ? [...lower, ...upper] : p.numbers("window", 4, 4);
+    const [width, height] = [window[2] - window[0], window[3] - window[1]];
+    if (!(width > 0 && height > 0)) throw wrong("window must be the lower corner and then the upper one");
+    const size = pixels(width, height, isBrief ? sideOfBrief[0] : most), { name, range, ramp } = coloured(p, mesh);
+    return [...size, name, isBrief || p.flag("edges"), window.slice(0, 2), window.slice(2), range, isBrief ? "strata" : ramp];
+}
+
+/** A small picture of a mesh in the plane: a tile of a map on which it takes all of one tile. */
+function briefOfPlane(mesh) {
+    const { lower, upper } = mesh, side = Math.max(...upper.map((x, i) => x - lower[i])) * 1.06 || 1;
+    const found = mesh.attributes[0], world = [(lower[0] + upper[0] - side) / 2, (lower[1] + upper[1] - side) / 2, side];
+    const isSurface = found !== undefined && found.least !== null;
+    return { text: plane.picture, values: [0, 0, 0, null, world, isSurface ? found.name : null, isSurface ? [found.least, Math.max(found.greatest, found.least + 1e-300)] : null, isSurface ? "terrain" : null, null,
+        isSurface ? side / 9 / (found.greatest - found.least || 1) : 0, !isSurface || mesh.simplices < 2000, 360, null, false] };
+}
+
+/** A picture that is not a tile, of the mesh as described: its statement and parameters. */
+export function picture(kind, p, { queries, dimension, kind: what }, mesh) {
+    if (mesh.lower[0] === null) throw new Refused(404, "the mesh is empty");
+    if (kind === "brief" && what === "mesh" && dimension === 2) return briefOfPlane(mesh);
+    if (kind !== "brief" && (what === "mesh" && dimension === 2)) throw new Refused(404, "not found");
+    return { text: queries.picture, values: (dimension === 2 ? wholePicture : sectionPicture)(p, mesh, mostSide, kind === "brief") };
 }
 
 // ---- Changes ------------------------------------------------------------------------------------

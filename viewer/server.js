@@ -1,4 +1,4 @@
-// The server of the viewer: files of the page, what the page asks about one mesh, and its tiles.
+// The server of the viewer: files of the pages, the list of meshes, what a page asks about its mesh, and pictures of it.
 // It listens on this machine only, unless --host says otherwise. docs/viewer.md tells what it does
 // to be safe.
 import { createServer } from "node:http";
@@ -7,12 +7,13 @@ import { parseArgs } from "node:util";
 import { connection } from "./conninfo.js";
 import { Database } from "./database.js";
 import { explain, Refused } from "./errors.js";
-import { change, Parameters, planeReads, spaceReads, tile } from "./requests.js";
-import { plane, space } from "./queries.js";
+import { mapped, Mesh, Meshes } from "./mesh.js";
+import { betweenReads, change, Parameters, picture, readsOf, tile } from "./requests.js";
 
-const usage = `usage: viewer/serve --mesh NAME [-d CONNINFO] [options]
+const usage = `usage: viewer/serve [--mesh NAME] [-d CONNINFO] [options]
 
-  --mesh NAME        the mesh, as in SQL: terrain, gis.terrain, '"TIN North"'
+  --mesh NAME        the mesh, as in SQL: terrain, gis.terrain, '"TIN North"'; no other can be reached.
+                     Without it, all meshes of the database that the role may read, in a list
   -d, --dbname TEXT  a database or connection string, as for psql; default: PGHOST and so on
   --srid N           SRID of the coordinates: 4326 (longitude and latitude) or 3857 (Web Mercator);
                      default: that of the mesh. With another SRID or none it has a map of its own
@@ -35,54 +36,6 @@ const headersFor = (baseMap) => ({
     "Cross-Origin-Resource-Policy": "same-origin",
 });
 const mostBody = 100_000;
-const mapped = [3857, 4326]; // what tiles are of
-
-/** What is known of the mesh; anew when it has changed. */
-class Mesh {
-    constructor(database, options) { Object.assign(this, { database, options }); }
-
-    static async open(database, options) {
-        const mesh = new Mesh(database, options);
-        mesh.oid = await database.resolve(options.mesh);
-        mesh.dimension = await mesh.read(null, async (query) => {
-            await query(plane.etag); // an error, with what the table is, if it is not a mesh
-            return (await query("SELECT value FROM abacus_stats($1::oid::regclass) WHERE name = 'dimension'"))[0].value;
-        });
-        return mesh;
-    }
-
-    /** Runs task(query), all of it in one state of the mesh. */
-    read(token, task, signal) {
-        return this.database.read(token, (query) => task(this.about(query)), signal);
-    }
-
-    /** Queries of which the first parameter is the mesh. */
-    about(query) {
-        return (text, values = []) => query(text, [this.oid, ...values]);
-    }
-
-    async describe(query) {
-        const [{ etag }] = await query(plane.etag);
-        if (this.known?.etag === etag) return this.known;
-        const [{ name, stats, attributes, extent, srid: own }] = await query(this.dimension === 2 ? plane.info : space.info);
-        const lower = extent.slice(0, this.dimension), upper = extent.slice(3, 3 + this.dimension);
-        const map = this.map ?? this.place(own, lower, upper);
-        if (lower[0] !== null) this.map = map; // a mesh without a simplex has no place yet
-        this.known = { etag, name, dimension: this.dimension, ...stats, attributes, lower, upper, ...map, system: own,
-            ...(map.srid && this.options.baseMap && { baseMap: this.options.baseMap, credit: this.options.credit }),
-            edit: Boolean(this.options.edit && stats.changeable) };
-        return this.known;
-    }
-
-    /** Where the mesh is on the map. It stays there when the mesh grows: pages that are open know of no other map.
-        Another server, which may listen at the same port later, may draw the same mesh on another one. */
-    place(own, lower, upper) {
-        const srid = this.options.srid || (mapped.includes(own) ? own : null);
-        // A map of its own: the mesh is in the middle, and takes a thousandth of it.
-        const extent = lower[0] === null ? 1 : Math.max(1e-300, ...upper.map((x, i) => x - lower[i])), side = 1024 * extent;
-        return { srid, world: srid ? null : [(lower[0] + upper[0] - side) / 2, (lower[1] + upper[1] - side) / 2, side] };
-    }
-}
 
 /** The object that a request sends as JSON. */
 async function body(request) {
@@ -112,31 +65,49 @@ function send(response, status, type, content, more = {}) {
 }
 const json = (response, value, status = 200) => send(response, status, "application/json", JSON.stringify(value));
 
-async function sendTile(request, response, url, mesh, reading) {
-    const [, kind, z, x, y] = url.pathname.match(/^\/tiles\/(picture|vector|terrain)\/(\d+)\/(\d+)\/(\d+)$/) ?? [];
-    if (!kind || mesh.dimension !== 2) throw new Refused(404, "not found");
-    const { etag, bytes } = await reading(async (query) => {
-        const known = await mesh.describe(query);
+/** A picture whose statement is `make(known)`; 304 if the client has it. Of another mesh it is drawn on the map of `onto`. */
+async function sendPicture(request, response, url, { mesh, onto }, reading, make, type = "image/png") {
+    const { etag, bytes } = await reading(async (query, all) => {
+        const known = onto ? placed(await mesh.describe(query), await onto.describe(onto.about(all))) : await mesh.describe(query);
         const drawn = JSON.stringify([known.srid, known.world, url.search]);
         const etag = `"${known.etag}-${Buffer.from(drawn).toString("base64url")}"`;
         if (request.headers["if-none-match"] === etag) return { etag };
-        const { text, values } = tile(kind, z, x, y, new Parameters(url.searchParams), known);
-        return { etag, bytes: (await query(text, values))[0].tile };
+        const { text, values } = make(known), [row] = await query(text, values);
+        return { etag, bytes: Object.values(row)[0] };
     });
     if (bytes === undefined) return send(response, 304, "image/png", undefined, { ETag: etag });
-    send(response, 200, kind === "vector" ? "application/x-protobuf" : "image/png", bytes, { ETag: etag });
+    send(response, 200, type, bytes, { ETag: etag });
 }
 
-async function read(response, url, mesh, reading) {
-    const name = url.pathname.slice("/api/".length);
-    const reads = { info: (_, query, known) => known, ...(mesh.dimension === 2 ? planeReads : spaceReads) };
+/** A mesh as described, on the map of another one. */
+function placed(known, { srid, world, system }) {
+    if (known.system !== system) throw new Refused(400, "the two meshes have different spatial reference systems");
+    return { ...known, srid, world };
+}
+
+function sendTile(request, response, url, path, what, reading) {
+    const { mesh } = what;
+    const [, kind, z, x, y] = path.match(/^\/tiles\/(picture|vector|terrain)\/(\d+)\/(\d+)\/(\d+)$/) ?? [];
+    if (!kind || mesh.page !== "plane") throw new Refused(404, "not found");
+    return sendPicture(request, response, url, what, reading, (known) => tile(kind, z, x, y, new Parameters(url.searchParams), known), kind === "vector" ? "application/x-protobuf" : "image/png");
+}
+
+function sendDrawing(request, response, url, path, mesh, reading) {
+    const [, kind] = path.match(/^\/pictures\/(brief|whole)$/) ?? [];
+    if (!kind) throw new Refused(404, "not found");
+    return sendPicture(request, response, url, { mesh }, reading, (known) => picture(kind, new Parameters(url.searchParams), mesh, known));
+}
+
+async function read(response, url, path, { mesh, onto }, reading) {
+    const name = path.slice("/api/".length);
+    const reads = { info: (_, query, known) => known, ...readsOf(mesh), ...(onto?.page === "plane" && mesh.page === "plane" && betweenReads) };
     if (!Object.hasOwn(reads, name)) throw new Refused(404, "not found");
-    json(response, await reading(async (query) => reads[name](new Parameters(url.searchParams), query, await mesh.describe(query))));
+    json(response, await reading(async (query) => reads[name](new Parameters(url.searchParams), query, await mesh.describe(query), onto?.oid)));
 }
 
 /** The session of a page that edits, and what it asks of it. */
-async function edit(request, response, url, mesh, token) {
-    const { database } = mesh, name = url.pathname.slice("/edit/".length);
+async function edit(request, response, path, mesh, token) {
+    const { database } = mesh, name = path.slice("/edit/".length);
     const given = await body(request); // JSON, which no form of another site can send
     if (!database.edit) throw new Refused(403, "the viewer was started without --edit");
     if (name === "begin") return json(response, { session: await database.open(request.socket.remoteAddress), beat: database.sessions.absent / 6 });
@@ -144,7 +115,7 @@ async function edit(request, response, url, mesh, token) {
     if (name === "alive") return json(response, { changes: session.changes });
     session.used = Date.now();
     try {
-        if (name === "save" || name === "undo") return json(response, { changes: await session[name]() });
+        if (name === "save" || name === "undo" || name === "back") return json(response, { changes: await session[name]() });
         if (name === "end") return json(response, (await session.close(), {}));
         const task = change(name, given, await mesh.read(session.token, (query) => mesh.describe(query)));
         json(response, { changes: await session.change((query) => task(mesh.about(query))) });
@@ -153,16 +124,41 @@ async function edit(request, response, url, mesh, token) {
     }
 }
 
-async function sendFile(response, url, mesh) {
-    const name = url.pathname === "/" ? "index.html" : url.pathname.slice("/assets/".length);
+async function sendFile(response, path, page) {
+    const name = path === "/" ? "index.html" : path.slice("/assets/".length);
     const known = /^[a-z-]+\.(html|css|js|mjs)$/.exec(name);
-    if (!known || (url.pathname !== "/" && !url.pathname.startsWith("/assets/"))) throw new Refused(404, "not found");
-    const content = await readFile(new URL(`dist/${name}`, import.meta.url)).catch(() => { throw new Refused(404, "not found"); });
-    send(response, 200, types[known[1]], name === "index.html" ? String(content).replaceAll("DIMENSION", mesh.dimension === 2 ? "plane" : "space") : content);
+    if (!known || (path !== "/" && !path.startsWith("/assets/"))) throw new Refused(404, "not found");
+    const content = await readFile(new URL(`dist/${page === "list" && path === "/" ? "list.html" : name}`, import.meta.url)).catch(() => { throw new Refused(404, "not found"); });
+    send(response, 200, types[known[1]], name === "index.html" ? String(content).replaceAll("DIMENSION", page) : content);
 }
 
-function handler(mesh, hosts) {
-    const headers = Object.entries(headersFor(mesh.options.baseMap));
+/** What the server shows: one mesh, at the root, or a list at the root and each mesh below /mesh/SCHEMA/NAME. */
+class Places {
+    constructor(mesh, meshes) { Object.assign(this, { mesh, meshes }); }
+
+    /** The mesh that a path names, if it names one, and the rest of the path. */
+    async find(path, signal) {
+        if (this.mesh) return { mesh: this.mesh, path };
+        const [, schema, name, rest] = /^\/mesh\/([^/]+)\/([^/]+)(\/.*)$/.exec(path) ?? [];
+        if (!name) return { mesh: null, path };
+        try {
+            return { mesh: await this.meshes.find(decodeURIComponent(schema), decodeURIComponent(name), signal), path: rest };
+        } catch (error) {
+            throw error instanceof URIError ? new Refused(400, "the address is not valid") : error;
+        }
+    }
+
+    /** The mesh that the page of another one asks about, as SCHEMA/NAME, each encoded. */
+    async other(text, signal) {
+        if (!this.meshes) throw new Refused(404, "this server shows no other mesh");
+        const { mesh } = await this.find(`/mesh/${text}/`, signal);
+        if (!mesh) throw new Refused(400, "of must be a schema and a name");
+        return mesh;
+    }
+}
+
+function handler(places, options, hosts) {
+    const headers = Object.entries(headersFor(options.baseMap));
     return async (request, response) => {
         for (const [name, value] of headers) response.setHeader(name, value);
         const gone = new AbortController();
@@ -172,15 +168,21 @@ function handler(mesh, hosts) {
             if (!hosts.has((request.headers.host ?? "").replace(/:\d+$/, ""))) throw new Refused(421, "this server does not answer to that host name");
             const url = address(request);
             const token = request.headers["x-session"] || null;
-            const reading = (task) => mesh.read(token, task, gone.signal);
-            if (url.pathname.startsWith("/edit/")) {
+            const { mesh, path } = await places.find(url.pathname, gone.signal);
+            if (path.startsWith("/edit/")) {
                 if (request.method !== "POST") throw new Refused(405, "only POST is allowed here");
-                return await edit(request, response, url, mesh, token);
+                if (!mesh) throw new Refused(404, "not found");
+                return await edit(request, response, path, mesh, token);
             }
             if (request.method !== "GET") throw new Refused(405, "only GET is allowed here");
-            if (url.pathname.startsWith("/tiles/")) return await sendTile(request, response, url, mesh, reading);
-            if (url.pathname.startsWith("/api/")) return await read(response, url, mesh, reading);
-            await sendFile(response, url, mesh);
+            if (!mesh && path === "/api/meshes") return json(response, await places.meshes.list(gone.signal));
+            if (!mesh) return await sendFile(response, path, "list");
+            const of = url.searchParams.get("of"), what = of === null ? { mesh } : { mesh: await places.other(of, gone.signal), onto: mesh };
+            const reading = (task) => mesh.database.read(token, (query) => task(what.mesh.about(query), query), gone.signal);
+            if (path.startsWith("/tiles/")) return await sendTile(request, response, url, path, what, reading);
+            if (path.startsWith("/pictures/")) return await sendDrawing(request, response, url, path, what.mesh, reading);
+            if (path.startsWith("/api/")) return await read(response, url, path, what, reading);
+            await sendFile(response, path, mesh.page);
         } catch (error) {
             if (response.writableEnded || gone.signal.aborted) return;
             const { status, message, hint } = explain(error);
@@ -192,11 +194,16 @@ function handler(mesh, hosts) {
 export async function start(options) {
     const milliseconds = (name) => options[name] && options[name] * 1000;
     const database = new Database(connection(options.dbname), { edit: options.edit, ...Object.fromEntries(["timeout", "idle", "absent"].map((name) => [name, milliseconds(name)])) });
-    const mesh = await Mesh.open(database, options).catch(async (error) => {
+    const open = async () => {
+        if (options.mesh) return new Places(await Mesh.open(database, options, await database.resolve(options.mesh)));
+        await database.rows(null, "SELECT abacus_version()"); // an error if the extension is missing
+        return new Places(null, new Meshes(database, options));
+    };
+    const places = await open().catch(async (error) => {
         await database.end();
         throw error;
     });
-    const server = createServer(handler(mesh, new Set(["localhost", "127.0.0.1", "[::1]", options.host])));
+    const server = createServer(handler(places, options, new Set(["localhost", "127.0.0.1", "[::1]", options.host])));
     await new Promise((resolve, reject) => server.once("error", reject).listen(options.port, options.host, resolve));
     return { port: server.address().port, stop: async () => {
         server.closeAllConnections();
@@ -216,7 +223,7 @@ function commandLine() {
         return value;
     };
     if (values.help) return null;
-    if (!values.mesh) throw new Error("--mesh is missing");
+    if (values.mesh === "") throw new Error("--mesh has no name");
     const srid = number("srid", 0, 99999);
     if (srid && !mapped.includes(srid)) throw new Error("--srid must be 4326 or 3857; without it the viewer uses the SRID of the mesh, or a map of its own");
     const baseMap = values["base-map"];
@@ -231,7 +238,7 @@ if (process.argv[1] === new URL(import.meta.url).pathname) {
         if (!options) console.log(usage);
         else {
             const { port, stop } = await start(options);
-            console.log(`Mesh ${options.mesh} is at http://localhost:${port}/  (press Ctrl+C to stop)`);
+            console.log(`${options.mesh === undefined ? "The list of meshes" : `Mesh ${options.mesh}`} is at http://localhost:${port}/  (press Ctrl+C to stop)`);
             for (const signal of ["SIGINT", "SIGTERM"]) process.once(signal, () => stop().then(() => process.exit(0)));
         }
     } catch (error) {

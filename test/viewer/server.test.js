@@ -479,15 +479,12 @@ test("packages have fixed versions and a hash, and come from npm's registry", ()
 });
 
 test("the command says what is wrong", () => {
-    psql("SELECT abacus_octree_create('cells', 2, '{0,0}', '{1,1}')");
     const run = (...words) => spawnSync(process.execPath, [new URL("../../viewer/server.js", import.meta.url).pathname, ...words], { encoding: "utf8" });
-    for (const [words, message] of [[[], /--mesh is missing/], [["--mesh", "terrain", "--srid", "25832"], /--srid must be/], [["--mesh", "terrain", "--port", "x"], /--port must be/], [["--mesh", "terrain", "--idle", "0"], /--idle must be/],
-        [["--mesh", "cells", "--port", "0"], /"cells" is an octree, not a mesh/],
+    for (const [words, message] of [[["--mesh", ""], /--mesh has no name/], [["--mesh", "terrain", "--srid", "25832"], /--srid must be/], [["--mesh", "terrain", "--port", "x"], /--port must be/], [["--mesh", "terrain", "--idle", "0"], /--idle must be/],
         [["--mesh", "nothing", "--port", "0"], /relation "nothing" does not exist/], [["--mesh", "terrain", "-d", "dbname=nothing"], /database "nothing" does not exist/], [["--wrong"], /Unknown option/]]) {
         const { status, stderr } = run(...words);
         assert.equal(status, 1, String(words));
         assert.match(stderr, message);
     }
-    psql("DROP TABLE cells");
     assert.match(run("--help").stdout, /usage/);
 });

@@ -31,8 +31,10 @@ async function load(address) {
 }
 
 /** Heights of a tile, NaN outside the mesh. */
-export function heightsOf(z, x, y) {
-    const address = settings.address(z, x, y);
+export const heightsOf = (z, x, y) => heightsAt(settings.address(z, x, y));
+
+/** The same of a tile at an address. */
+export function heightsAt(address) {
     let tile = cache.get(address);
     if (!tile) {
         tile = load(address);

@@ -1,5 +1,6 @@
 // The triangle at a place, and walks from it to its neighbours.
-import { answering, centroid, circumsphere, describe, element, offerWalk, say } from "./common.js";
+import { answering, centroid, circumsphere, describe, element, made, offerWalk, say, table } from "./common.js";
+import { otherAt } from "./compare.js";
 import { coordinates, map, mesh, named, places, ring, show } from "./map.js";
 import { withRegion } from "./regions.js";
 import { ask } from "./requests.js";
@@ -25,7 +26,8 @@ function draw() {
 export async function locate([x, y]) {
     found = await ask("locate", { ...named({ x, y }), ...withRegion() });
     draw();
-    say(describe(found, "triangle", mesh.attributes.map((one) => one.name), element("unit").value));
+    const other = await otherAt([x, y], found.values.linear);
+    say([...describe(found, "triangle", mesh.attributes.map((one) => one.name), element("unit").value), ...(other.length ? [made("h3", {}, "Other mesh"), table(other)] : [])]);
     offerWalk(found, walk);
 }
 

@@ -1,12 +1,14 @@
 // The map of a mesh in the plane, and what of it the other parts of the page use.
 import * as maplibre from "maplibre-gl";
 import { element, mention } from "./common.js";
+import { comparison } from "./comparison.js";
 import { Intervals } from "./contours.js";
 import { Coordinates } from "./coordinates.js";
 import { stillThere } from "./editing.js";
 import { greatest, least, setHeights } from "./heights.js";
 import { outside } from "./outside.js";
-import { ask, sessionHeaders } from "./requests.js";
+import { ask, root, sessionHeaders } from "./requests.js";
+import { rangeOf } from "./series.js";
 import { styleOf } from "./style.js";
 
 maplibre.setWorkerUrl("/assets/maplibre-gl-worker.mjs");
@@ -24,7 +26,7 @@ export const named = (parameters) => ({ ...parameters, ...(attribute() && { attr
 
 /** The range of the colours: what was entered, or that of the whole mesh. */
 export function colourRange() {
-    const { least: low, greatest: high } = attribute(), given = ["low", "high"].map((id) => element(id).valueAsNumber);
+    const [low, high] = rangeOf(attribute(), mesh.attributes), given = ["low", "high"].map((id) => element(id).valueAsNumber);
     if (low === null) return [0, 1]; // no vertex has a value
     return given.some(Number.isNaN) || given[0] >= given[1] ? [low, high > low ? high : low + 1] : given;
 }
@@ -60,9 +62,12 @@ export const intervals = () => (attribute() && attribute().least !== null && !is
 /** The region that is shown alone, if one is. */
 const within = () => (element("within").value ? { within: element("within").value } : {});
 
+/** The address of tiles of a kind, also of another mesh. */
+export const tileAddress = (kind, more) => `${location.origin}${root}tiles/${kind}/{z}/{x}/{y}?${new URLSearchParams({ v: mesh.etag, ...named({}), ...more })}`;
+
 function tiles() {
     const common = { v: mesh.etag, ...named({}), ...within() };
-    const address = (kind, more) => `${location.origin}/tiles/${kind}/{z}/{x}/{y}?${new URLSearchParams({ ...common, ...more })}`;
+    const address = (kind, more) => tileAddress(kind, { ...within(), ...more });
     const [low, high] = attribute() ? colourRange() : [], heights = new URLSearchParams(common);
     return {
         picture: address("picture", { edges: "no", ...(checked("regions") && { regions: "yes" }), ...(devicePixelRatio > 1 && { size: 512 }), ...(attribute() && { ramp: element("ramp").value, low, high }) }),
@@ -86,6 +91,9 @@ function settings() {
         terrain: isReady && hasHeights() && checked("relief") ? exaggeration() : 0,
         shown: Object.fromEntries(["shade", "contours", "edges", "vertices", "lines", "base"].map((id) => [id, checked(id)])),
         shade: { strength: Number(element("shade-strength").value) / 100, from: Number(element("shade-from").value) },
+        above: comparison.above.map((of) => ({ of, tiles: `${location.origin}${root}tiles/picture/{z}/{x}/{y}?${new URLSearchParams({ of, edges: "no", ramp: element("ramp").value, ...(devicePixelRatio > 1 && { size: 512 }) })}` })),
+        difference: comparison.with && `difference://difference/{z}/{x}/{y}?${new URLSearchParams({ v: mesh.etag, of: comparison.with, most: comparison.most, ...named({}) })}`,
+        opacity: Number(element("opacity").value) / 100,
         isPart: element("within").value !== "", intervals: intervals(), edgeZoom: edgeZoom(),
     };
 }

@@ -5,6 +5,9 @@ const digits = (step) => Math.max(0, Math.min(12, -Math.floor(Math.log10(step) +
 /** A number with as many digits as differ within `step`, and thousands apart. */
 export const rounded = (x, step) => (x === null || x === undefined ? "–" : x.toLocaleString("en", { minimumFractionDigits: digits(step), maximumFractionDigits: digits(step) }));
 
+/** A number with the digits that count where a thousandth of `extent` does. */
+export const plain = (x, extent) => (extent > 0 ? Number(x.toFixed(digits(extent / 1000))) : x);
+
 /** A length or an area in words: 1,250 m, 12.5 km. */
 export function measured(x, unit, power = 1) {
     const kilo = 1000 ** power;

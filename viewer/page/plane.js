@@ -2,6 +2,8 @@
 import * as maplibre from "maplibre-gl";
 import { setUpChart } from "./chart.js";
 import { answering, counted, element, openPanel, say, setUpPanels, tool } from "./common.js";
+import { setUpComparison } from "./compare.js";
+import { comparison } from "./comparison.js";
 import { clearLines, drawing } from "./drawing.js";
 import { setUpEditing } from "./editing.js";
 import { setUpFixed } from "./fixed.js";
@@ -12,9 +14,10 @@ import { clearFound, locate, walkTowards } from "./inspect.js";
 import { drawLegend, drawScale } from "./legend.js";
 import { attribute, colourRange, coordinates, exaggeration, fit, intervals, makeRoom, map, mesh, refresh, restyle, show } from "./map.js";
 import { measure } from "./measure.js";
-import { editors, forgetMoved } from "./points.js";
+import { editors, forgetMoved, markChanges } from "./points.js";
 import { profile, setUpProfiles } from "./profile.js";
 import { setUpRegions } from "./regions.js";
+import { setUpSeries } from "./series.js";
 import { sight } from "./sight.js";
 
 // ---- Tools -------------------------------------------------------------------------------------
@@ -71,7 +74,8 @@ function write() {
     document.body.classList.toggle("bare", !found || mesh.lower[0] === null);
     element("summary").textContent = `${counted(mesh.simplices.toLocaleString("en"), "triangle")}, ${counted(mesh.vertices.toLocaleString("en"), "vertex", "vertices")}`;
     if (!found || mesh.lower[0] === null) return;
-    drawLegend({ name: found.name, unit: element("unit").value, palette: element("ramp").value, range: colourRange() });
+    const { with: other, most, name } = comparison, unit = element("unit").value;
+    drawLegend(other ? { name, unit, palette: "diverging", range: [-most, most] } : { name: found.name, unit, palette: element("ramp").value, range: colourRange() });
     element("shade-from-value").textContent = `${element("shade-from").value}°`;
     element("exaggeration-value").textContent = factor(exaggeration());
     const isClamped = found.least < least || found.greatest > greatest;
@@ -154,17 +158,19 @@ setUpTools();
 setUpDisplay();
 setUpChart(() => (clearLines(), show([])), (height) => makeRoom(height, [...drawing.path, ...drawing.lines.flatMap((one) => one.places)]));
 setUpProfiles();
+setUpSeries(() => mesh.attributes, () => map.once("idle"));
 setUpHover();
 map.addControl(new maplibre.NavigationControl({ visualizePitch: true }), "bottom-right");
 map.addControl(new Buttons({ id: "fit", name: "Fit to mesh", picture: "maximize", click: fit },
     { id: "three", name: "Terrain in 3D", picture: "box", click: () => element("relief").click() }), "bottom-right");
+document.body.classList.toggle("many", Boolean(mesh.isOneOfMany));
 element("name").textContent = mesh.name;
 document.title = `${mesh.name} – Abacus`;
 chooseAttribute();
-if (mesh.edit) setUpEditing(async () => (forget(), refresh()));
+if (mesh.edit) setUpEditing(async () => (forget(), refresh()), markChanges);
 if (!map.isStyleLoaded()) await map.once("style.load");
 await refresh();
-await Promise.all([setUpFixed(), setUpRegions()]);
+await Promise.all([setUpFixed(), setUpRegions(), setUpComparison(changed)]);
 drawScale(map, coordinates);
 say(mesh.lower[0] === null ? "The mesh has no triangles yet." : first[tool()]);
 map.on("idle", () => element("view").setAttribute("data-ready", "true"));

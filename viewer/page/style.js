@@ -11,14 +11,16 @@ const of = (...kinds) => ["in", ["get", "kind"], ["literal", kinds]];
 const when = (isShown) => ({ visibility: isShown ? "visible" : "none" });
 const empty = { type: "FeatureCollection", features: [] };
 
-function sources({ tiles, scales, range, data, baseMap, hasHeights }) {
+function sources({ tiles, scales, range, data, baseMap, hasHeights, above, difference }) {
     const heights = (name) => ({ type: "raster-dem", tileSize: 256, maxzoom: 20, tiles: [tiles[name]], ...encoding(range, scales[name]) });
     return {
         ...(baseMap && { base: { type: "raster", tiles: [baseMap], tileSize: 256 } }),
         picture: { type: "raster", tiles: [tiles.picture], tileSize: 256, maxzoom: 22 },
+        ...Object.fromEntries(above.map(({ of, tiles }) => [`above ${of}`, { type: "raster", tiles: [tiles], tileSize: 256, maxzoom: 22 }])),
+        ...(difference && { difference: { type: "raster", tiles: [difference], tileSize: 256, maxzoom: 20 } }),
         vector: { type: "vector", tiles: [tiles.vector], maxzoom: 22 },
         ...(hasHeights && { shade: heights("shade"), heights: heights("heights") }),
-        ...Object.fromEntries(["mask", "lines", "under", "found"].map((name) => [name, { type: "geojson", data: data[name] ?? empty, tolerance: 0.1 }])),
+        ...Object.fromEntries(["mask", "lines", "under", "changes", "found"].map((name) => [name, { type: "geojson", data: data[name] ?? empty, tolerance: 0.1 }])),
     };
 }
 
@@ -29,16 +31,18 @@ function cased(id, source, filter, colour, width, more = {}) {
         { ...line, id, paint: { "line-color": colour, "line-width": width, ...more } }];
 }
 
-function ground(theme, { shown, shade, hasHeights, baseMap }) {
+function ground(theme, { shown, shade, hasHeights, baseMap, above, difference, opacity }) {
     return [
         { id: "ground", type: "background", paint: { "background-color": theme.ground } },
         ...(baseMap ? [{ id: "base", type: "raster", source: "base", layout: when(shown.base) }] : []),
         { id: "picture", type: "raster", source: "picture", paint: { "raster-fade-duration": 0, "raster-opacity": baseMap && shown.base ? 0.75 : 1 } },
+        ...(difference ? [{ id: "difference", type: "raster", source: "difference", paint: { "raster-fade-duration": 0 } }] : []),
         ...(hasHeights ? [{ id: "shade", type: "hillshade", source: "shade", layout: when(shown.shade), paint: { "hillshade-exaggeration": shade.strength,
             "hillshade-illumination-direction": shade.from, "hillshade-illumination-anchor": "map", "hillshade-method": "standard",
             "hillshade-shadow-color": "#0d1f2d", "hillshade-accent-color": "#14232b", "hillshade-highlight-color": "#fff6e0" } }] : []),
         // Beyond the border heights go on, but nothing of them is to be seen.
         ...(baseMap ? [] : [{ id: "mask", type: "fill", source: "mask", paint: { "fill-color": theme.ground, "fill-antialias": false } }]),
+        ...above.map(({ of }) => ({ id: `above ${of}`, type: "raster", source: `above ${of}`, paint: { "raster-fade-duration": 0, "raster-opacity": opacity } })),
     ];
 }
 
@@ -67,6 +71,9 @@ function meshLayers(theme, { shown, isPart, edgeZoom }) {
 }
 
 const answers = () => [
+    ...cased("moved", "changes", of("moved"), colours.star, 1.6, { "line-dasharray": [2, 2] }),
+    { id: "changes", type: "circle", source: "changes", filter: of("insert", "remove"), paint: { "circle-radius": 5, "circle-color": ["match", ["get", "kind"], "insert", colours.visible, colours.hidden],
+        "circle-opacity": ["match", ["get", "kind"], "insert", 1, 0.35], "circle-stroke-width": 2, "circle-stroke-color": ["match", ["get", "kind"], "insert", "#ffffff", colours.hidden] } },
     { id: "under", type: "line", source: "under", paint: { "line-color": "#ffffff", "line-width": 3, "line-opacity": 0.9 } },
     { id: "under-ink", type: "line", source: "under", paint: { "line-color": colours.neighbour, "line-width": 1.2 } },
     { id: "fill", type: "fill", source: "found", filter: of("simplex", "area"), paint: { "fill-color": ["match", ["get", "kind"], "area", colours.path, colours.simplex], "fill-opacity": 0.2 } },

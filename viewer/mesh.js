@@ -1,0 +1,100 @@
+// A mesh or an octree as the viewer knows it: what it is, where it lies on the map, and the meshes of the database that may
+// be shown.
+import { Refused } from "./errors.js";
+import { catalogue, kinds } from "./queries.js";
+
+export const mapped = [3857, 4326]; // what tiles are of
+const mostKnown = 200; // meshes of which the server keeps what it knows
+
+/** What is known of the mesh; anew when it has changed. */
+export class Mesh {
+    constructor(database, options, oid) { Object.assign(this, { database, options, oid }); }
+
+    static async open(database, options, oid, signal) {
+        const mesh = new Mesh(database, options, oid);
+        await mesh.read(null, async (query) => {
+            const stats = Object.fromEntries((await query(catalogue.stats)).map(({ name, value }) => [name, value])); // an error, with what the table is, if it is neither
+            mesh.dimension = stats.dimension;
+            mesh.kind = "leaves" in stats ? "octree" : "mesh";
+        }, signal);
+        mesh.queries = kinds[`${mesh.kind}${mesh.dimension}`];
+        return mesh;
+    }
+
+    /** The page that shows it. */
+    get page() { return this.kind === "mesh" && this.dimension === 2 ? "plane" : "space"; }
+
+    /** Runs task(query), all of it in one state of the mesh. */
+    read(token, task, signal) {
+        return this.database.read(token, (query) => task(this.about(query)), signal);
+    }
+
+    /** Queries of which the first parameter is the mesh. */
+    about(query) {
+        return (text, values = []) => query(text, [this.oid, ...values]);
+    }
+
+    async describe(query) {
+        const [{ etag }] = this.queries.etag ? await query(this.queries.etag) : [{ etag: null }];
+        if (etag && this.known?.etag === etag) return this.known;
+        const [{ name, stats, attributes, labels, extent, srid: own }] = await query(this.queries.info);
+        const lower = extent.slice(0, this.dimension), upper = extent.slice(3, 3 + this.dimension);
+        const map = this.map ?? this.place(own, lower, upper);
+        if (lower[0] !== null) this.map = map; // a mesh without a simplex has no place yet
+        this.known = { etag, name, kind: this.kind, dimension: this.dimension, ...stats, attributes, labels: labels ?? [], lower, upper, ...map, system: own,
+            ...(map.srid && this.options.baseMap && { baseMap: this.options.baseMap, credit: this.options.credit }),
+            ...(!this.options.mesh && { isOneOfMany: true }),
+            edit: Boolean(this.options.edit && stats.changeable) };
+        return this.known;
+    }
+
+    /** Where the mesh is on the map. It stays there when the mesh grows: pages that are open know of no other map.
+        Another server, which may listen at the same port later, may draw the same mesh on another one. */
+    place(own, lower, upper) {
+        const srid = this.options.srid || (mapped.includes(own) ? own : null);
+        // A map of its own: the mesh is in the middle, and takes a thousandth of it.
+        const extent = lower[0] === null ? 1 : Math.max(1e-300, ...upper.map((x, i) => x - lower[i])), side = 1024 * extent;
+        return { srid, world: srid ? null : [(lower[0] + upper[0] - side) / 2, (lower[1] + upper[1] - side) / 2, side] };
+    }
+}
+
+/** The meshes that a server may show: all that the role may read. */
+export class Meshes {
+    constructor(database, options) { Object.assign(this, { database, options, known: new Map() }); }
+
+    /** The mesh of a schema and a name, as the catalogue has it. */
+    async find(schema, name, signal) {
+        const [found] = await this.database.rows(null, catalogue.mesh, [schema, name], signal);
+        if (!found) throw new Refused(404, "there is no such mesh");
+        return this.open(found.oid, signal);
+    }
+
+    async open(oid, signal) {
+        const mesh = this.known.get(oid) ?? await Mesh.open(this.database, this.options, oid, signal);
+        this.known.delete(oid);
+        this.known.set(oid, mesh);
+        if (this.known.size > mostKnown) this.known.delete(this.known.keys().next().value);
+        return mesh;
+    }
+
+    /** What the list says of each mesh. One that cannot be read does not hide the others. */
+    async list(signal) {
+        const [rows, written] = await this.database.read(null, async (query) => {
+            const rows = await query(catalogue.meshes), [{ may }] = await query(catalogue.maySeeFiles);
+            return [rows, may ? await query(catalogue.written, [rows.map(({ oid }) => oid)]) : []];
+        }, signal);
+        const changed = new Map(written.map((row) => [row.oid, row.changed])), found = [];
+        for (const { oid, schema, name, bytes } of rows) {
+            const row = { schema, name, bytes: Number(bytes), changed: changed.get(oid) ?? null };
+            try {
+                const mesh = await this.open(oid, signal);
+                const [{ stats, srid }] = await mesh.read(null, (query) => query(catalogue.brief), signal);
+                found.push({ ...row, kind: mesh.kind, dimension: mesh.dimension, ...stats, srid });
+            } catch (error) {
+                if (error instanceof Refused) throw error; // the database is away, or the client
+                if (error.code !== "42P01") found.push({ ...row, error: error.message }); // it may have been dropped meanwhile
+            }
+        }
+        return found;
+    }
+}
