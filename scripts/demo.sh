@@ -177,20 +177,21 @@ note_mesh quake
 heading "Times and sizes"
 printf '%s\n' "${summary[@]}"
 
-# Shows a mesh at a port as long as this script runs.
-show() {
-    viewer/serve --mesh "$1" --port "$2" &
-    viewers+=($!)
-}
-
-# Until Ctrl+C; the viewers and the server of the database end with this script.
+# Until Ctrl+C; the viewer and the server of the database end with this script. If there is a screen, a browser opens.
 if [[ -n $view ]]; then
     heading "The meshes in a browser"
     viewer/serve --build
-    viewers=()
-    trap 'kill "${viewers[@]}" 2>/dev/null || true; cluster_stop' EXIT
-    show shorelines 8080
-    show terrain 8081
-    show quake 8082
-    wait
+    viewer/serve --port 8080 &
+    viewer=$!
+    trap 'kill "$viewer" 2>/dev/null || true; cluster_stop' EXIT
+    address=http://localhost:8080
+    printf '  %-36s %s\n' "the terrain, in three dimensions" "$address/mesh/public/terrain/#3d" \
+        "the shorelines of the world" "$address/mesh/public/shorelines/" \
+        "the earthquake model, cut open" "$address/mesh/public/quake/" \
+        "all meshes" "$address/"
+    if [[ -n ${DISPLAY:-}${WAYLAND_DISPLAY:-} ]] && command -v xdg-open >/dev/null; then
+        sleep 1
+        xdg-open "$address/mesh/public/terrain/#3d" >/dev/null 2>&1 || true
+    fi
+    wait "$viewer"
 fi

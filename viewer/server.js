@@ -10,7 +10,7 @@ import { explain, Refused } from "./errors.js";
 import { mapped, Mesh, Meshes } from "./mesh.js";
 import { betweenReads, change, Parameters, picture, readsOf, tile } from "./requests.js";
 
-const usage = `usage: viewer/serve [--mesh NAME] [-d CONNINFO] [options]
+const usage = `usage: viewer/serve [--mesh NAME] [-d CONNINFO] [options]     (or abacus-viewer, of Debian's package)
 
   --mesh NAME        the mesh, as in SQL: terrain, gis.terrain, '"TIN North"'; no other can be reached.
                      Without it, all meshes of the database that the role may read, in a list

@@ -7,6 +7,7 @@ import { Intervals } from "../../viewer/page/contours.js";
 import { outside } from "../../viewer/page/outside.js";
 import { stops } from "../../viewer/page/palette.js";
 import { asked, askAt, cell, choose, display, open, page, pictures, says, setUp, take } from "./browser.js";
+import { contrasts } from "./contrast.js";
 import { psql, serve } from "./support.js";
 
 const asks = (pattern) => page.waitForResponse((response) => pattern.test(response.url()) && response.status() === 200);
@@ -143,26 +144,9 @@ for (const [name, width, height] of [["wide", 1600, 900], ["tablet", 820, 1100],
             const wrong = await page.evaluate(() => [...document.querySelectorAll(".card, #scale")].filter((one) => one.checkVisibility()).map((one) => [one.id || one.className, one.getBoundingClientRect()])
                 .filter(([, box]) => box.left < -1 || box.top < -1 || box.right > innerWidth + 1 || box.bottom > innerHeight + 1).map(([id]) => id));
             assert.deepEqual(wrong, []);
-            assert.deepEqual(await page.evaluate(contrasts), []);
+            assert.deepEqual(await page.evaluate(contrasts, ".card *"), []);
             await page.screenshot({ path: `${pictures}/viewer_${name}_${colorScheme}.jpg`, quality: 75 });
         });
-
-/** Words in colours that differ too little from what they are on: a ratio below 4.5 (WCAG AA). */
-function contrasts() {
-    const numbers = (colour) => colour.match(/[\d.]+/g).map(Number);
-    const light = ([r, g, b]) => [r, g, b].map((c) => (c / 255 <= 0.04045 ? c / 255 / 12.92 : ((c / 255 + 0.055) / 1.055) ** 2.4)).reduce((sum, c, i) => sum + c * [0.2126, 0.7152, 0.0722][i], 0);
-    const ground = (one) => {
-        for (; one; one = one.parentElement) {
-            const colour = numbers(getComputedStyle(one).backgroundColor);
-            if ((colour[3] ?? 1) > 0.9) return colour;
-        }
-        return null;
-    };
-    return [...document.querySelectorAll(".card *")].filter((one) => one.checkVisibility() && !one.disabled && [...one.childNodes].some((node) => node.nodeType === 3 && node.textContent.trim())).map((one) => {
-        const on = ground(one), [a, b] = [light(numbers(getComputedStyle(one).color)), on ? light(on) : NaN].sort((x, y) => y - x);
-        return on && (a + 0.05) / (b + 0.05) < 4.5 ? `${one.tagName} ${one.textContent.slice(0, 40)}: ${((a + 0.05) / (b + 0.05)).toFixed(2)}` : null;
-    }).filter(Boolean);
-}
 
 test("beyond the border neighbouring tiles of heights agree along their seam", () => {
     const border = segments([[[0.3, 0.3, 10], [0.62, 0.34, 50], [0.7, 0.7, 20], [0.35, 0.6, 90]]]);

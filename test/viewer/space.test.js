@@ -53,7 +53,7 @@ test("the surface of the mesh as SQL has it: vertices with their own values, lab
     // at a fault two vertices at one place, each with the value of its side
     const split = (await servers.split.get("/api/body?attribute=vs")).body;
     assert.equal(split.positions.length / 3, 9);
-    assert.deepEqual(split.values.toSorted((a, b) => a - b), [5, 6, 7, 8, 9, 10, 11, 12, 13]);
+    assert.deepEqual([...split.values].sort((a, b) => a - b), [5, 6, 7, 8, 9, 10, 11, 12, 13]);
     assert.deepEqual((await servers.dice.get("/api/body")).body, { isBox: true });
     assert.deepEqual((await servers.hollow.get("/api/body")).body, { positions: [], triangles: [] });
 });

@@ -3,15 +3,17 @@
 export const element = (id) => document.getElementById(id);
 export const tool = () => document.forms.tools.elements.tool.value;
 
+let running = 0;
 /** Runs what somebody has asked for, and says what went wrong. */
 export async function answering(task) {
+    ++running;
     element("view").setAttribute("aria-busy", "true");
     try {
         return await task();
     } catch (error) {
         say(error.message, "error");
     } finally {
-        element("view").removeAttribute("aria-busy");
+        if (--running === 0) element("view").removeAttribute("aria-busy");
     }
 }
 

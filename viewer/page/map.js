@@ -8,6 +8,7 @@ import { stillThere } from "./editing.js";
 import { greatest, least, setHeights } from "./heights.js";
 import { outside } from "./outside.js";
 import { ask, root, sessionHeaders } from "./requests.js";
+import { avoidSeams } from "./seams.js";
 import { rangeOf } from "./series.js";
 import { styleOf } from "./style.js";
 
@@ -116,10 +117,12 @@ export const map = new maplibre.Map({
     bounds: isEmpty() ? undefined : bounds(),
     fitBoundsOptions: { padding: padding() },
     maxPitch: 80,
+    renderWorldCopies: false, // the mesh is there once
     maxZoom: 23,
     transformRequest,
     style: styleOf(settings()),
 });
+avoidSeams(map);
 map.getCanvas().setAttribute("aria-label", "Map of the mesh. Press Enter to use the tool at the middle of the map. Once a triangle is shown, the arrow keys walk to its neighbours. Press Escape to start again.");
 map.on("error", ({ error }) => (error?.status === 410 ? stillThere() : mention(error?.message ?? "A tile could not be loaded.")));
 

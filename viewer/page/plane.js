@@ -172,6 +172,7 @@ if (!map.isStyleLoaded()) await map.once("style.load");
 await refresh();
 await Promise.all([setUpFixed(), setUpRegions(), setUpComparison(changed)]);
 drawScale(map, coordinates);
+if (location.hash === "#3d" && attribute()) element("relief").click();
 say(mesh.lower[0] === null ? "The mesh has no triangles yet." : first[tool()]);
 map.on("idle", () => element("view").setAttribute("data-ready", "true"));
 map.on("dataloading", () => element("view").removeAttribute("data-ready"));
