@@ -58,9 +58,6 @@ const pictures = {
         await page.locator("#go-open").click();
     }],
     shorelines: ["shorelines", async () => {}],
-    space: ["quake", async (page) => {
-        await display(page, () => page.locator("#unit").fill("m/s"), () => page.locator("#cut").fill("450"));
-    }],
     surface: ["quake", async (page) => {
         await display(page, () => page.locator("#unit").fill("m/s"), () => page.locator("#axis").selectOption("0"), () => page.locator("#level").fill("330"));
     }],
