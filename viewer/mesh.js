@@ -1,6 +1,6 @@
 // A mesh or an octree as the viewer knows it: what it is, where it lies on the map, and the meshes of the database that may
 // be shown.
-import { Refused } from "./errors.js";
+import { explain, Refused } from "./errors.js";
 import { catalogue, kinds } from "./queries.js";
 
 export const mapped = [3857, 4326]; // what tiles are of
@@ -92,7 +92,7 @@ export class Meshes {
                 found.push({ ...row, kind: mesh.kind, dimension: mesh.dimension, ...stats, srid });
             } catch (error) {
                 if (error instanceof Refused) throw error; // the database is away, or the client
-                if (error.code !== "42P01") found.push({ ...row, error: error.message }); // it may have been dropped meanwhile
+                if (error.code !== "42P01") found.push({ ...row, error: explain(error).message }); // it may have been dropped meanwhile
             }
         }
         return found;

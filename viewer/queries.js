@@ -128,6 +128,10 @@ export const space = {
                 WHERE ARRAY[s.v0, s.v1, s.v2, s.v3] @> h.vertices LIMIT 1) AS label
         FROM (SELECT ring, array_agg(vertex) AS vertices, min(x) FILTER (WHERE position = first) AS x, min(y) FILTER (WHERE position = first) AS y, min(z) FILTER (WHERE position = first) AS z
               FROM (SELECT *, min(position) OVER (PARTITION BY ring) AS first FROM abacus_hull($1::oid::regclass)) AS corner GROUP BY ring) AS h ORDER BY h.ring`,
+    /** The values of the label at position $2: all of them if there are at most $3, and their range. */
+    labelValues: `
+        WITH seen AS MATERIALIZED (SELECT labels[$2::integer] AS value FROM abacus_cells($1::oid::regclass) WHERE labels[$2::integer] IS NOT NULL GROUP BY 1)
+        SELECT min(value) AS least, max(value) AS greatest, CASE WHEN count(*) <= $3::integer THEN array_agg(value ORDER BY value) END AS values FROM seen`,
     brief: sectionPicture,
     picture: sectionPicture,
 };

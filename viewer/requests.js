@@ -90,6 +90,12 @@ export const betweenReads = {
     volume: async (p, query, mesh, own) => (await query(plane.volume, [own, p.text("own"), attributeOf(p, mesh)]))[0],
 };
 
+/** Where a name is in a list, from 1; 0 if none is given. */
+function position(names, name, what) {
+    if (name !== null && !names.includes(name)) throw wrong(`the mesh has no ${what} "${name}"`);
+    return names.indexOf(name) + 1;
+}
+
 const mostOfBody = 200_000; // triangles
 const fewOfBody = 2000; // as few are sent even where six pictures would do
 
@@ -98,12 +104,7 @@ const fewOfBody = 2000; // as few are sent even where six pictures would do
 async function body(p, query, mesh) {
     if (mesh.lower[0] === null) return { positions: [], triangles: [] };
     const [{ triangles: count, isBox }] = await query(space.shape, [...mesh.lower, ...mesh.upper]);
-    const label = p.text("label"), attribute = p.text("attribute"), position = (names, name, what) => {
-        const at = name === null ? -1 : names.indexOf(name);
-        if (name !== null && at < 0) throw wrong(`the mesh has no ${what} "${name}"`);
-        return at + 1;
-    };
-    const ofLabel = position(mesh.labels, label, "label"), ofAttribute = position(mesh.attributes.map((one) => one.name), attribute, "attribute");
+    const ofLabel = position(mesh.labels, p.text("label"), "label"), ofAttribute = position(mesh.attributes.map((one) => one.name), p.text("attribute"), "attribute");
     if (isBox && count > fewOfBody && !ofLabel) return { isBox };
     if (count > mostOfBody) return null;
     const numbers = new Map(), positions = [], values = [], triangles = [];
@@ -119,10 +120,14 @@ async function body(p, query, mesh) {
     return { positions, triangles, ...(ofAttribute && { values }), ...(ofLabel && { labels: (await query(space.bodyLabels, [ofLabel])).map((row) => row.label) }) };
 }
 
+const mostLabelColours = 16;
+
 const spaceReads = {
     locate: (p, query, mesh) => locate(query, mesh, space, at(p, 3), attributeOf(p, mesh)),
     star: (p, query) => query(space.cells, at(p, 3)),
     body,
+    /** The values of a label that are to be told apart, or only their range if there are too many. */
+    label: async (p, query, mesh) => (await query(space.labelValues, [position(mesh.labels, p.text("name") ?? "", "label"), mostLabelColours]))[0],
     section: (p, query, mesh) => bounded(query, { text: space.section,
         values: [p.numbers("through", 3, 3), p.numbers("normal", 3, 3), attributeOf(p, mesh)] }),
     isosurface: (p, query, mesh) => bounded(query, { text: space.isosurface, values: [p.number("value"), attributeOf(p, mesh)] }),

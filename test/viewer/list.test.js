@@ -121,6 +121,7 @@ test("the list shows a picture of each mesh, finds one by its name, and leads th
 });
 
 test("meshes of every kind open without an error: systems, loaded ones, faults, in space, empty", async () => {
+    await page.setViewportSize({ width: 640, height: 420 }); // few tiles are enough
     for (const name of ["globe", "mercator", "utm", "terrain", "loaded", "faulty", "bare", "rock"]) {
         await page.goto(`${servers.all.origin}/mesh/public/${name}/`);
         await page.waitForSelector("#view[data-ready=true]");

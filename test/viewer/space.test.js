@@ -12,7 +12,7 @@ setUp(async () => {
         SELECT abacus_triangulate('ore', 'SELECT 10000 * i + 100 * j + k AS id, i + sin(j * k) / 4 AS x, j + cos(i * k) / 4 AS y, -k + sin(i + j) / 4 AS z,
             300 + 40 * k + 30 * sin(i) AS vs_0, 300 + 40 * k + 30 * sin(i + 1) AS vs_5, 400 + 40 * k + 30 * sin(i + 2) AS vs_10, i * j AS other
             FROM generate_series(0, 12) AS i, generate_series(0, 10) AS j, generate_series(0, 6) AS k', dimension => 3);
-        SELECT abacus_label('ore', 'SELECT code, v0, v1, v2, v3, 1 + floor((corners[1][1] + corners[1][2]) / 7) AS rock FROM abacus_cells(''ore'')');
+        SELECT abacus_label('ore', 'SELECT code, v0, v1, v2, v3, 1 + floor((corners[1][1] + corners[1][2]) / 7) AS rock, corners[1][1] AS east FROM abacus_cells(''ore'')');
         SELECT abacus_load('split', 'VALUES (1, -1, 0, 0, 5), (2, 0, 0, 0, 6), (3, 0, 1, 0, 7), (4, 0, 0, 1, 8), (5, 1, 0, 0, 9), (6, 1, 1, 1, 10), (12, 0, 0, 0, 11), (13, 0, 1, 0, 12), (14, 0, 0, 1, 13)',
             'VALUES (1, 2, 3, 4), (12, 13, 14, 5), (13, 14, 5, 6)', attributes => '{vs}', split_nodes => true);
         SELECT abacus_triangulate('dice', 'SELECT row_number() OVER (), x, y, z, x AS a FROM generate_series(0, 20) AS x, generate_series(0, 20) AS y, generate_series(0, 20) AS z', dimension => 3);
@@ -50,6 +50,10 @@ test("the surface of the mesh as SQL has it: vertices with their own values, lab
         const [a, b, c] = [0, 1, 2].map((k) => `ARRAY[${corner(body.triangles[3 * i + k])}]::float8[]`), has = (at) => `ARRAY(SELECT unnest(corners[1:1])) = ${at} OR ARRAY(SELECT unnest(corners[2:2])) = ${at} OR ARRAY(SELECT unnest(corners[3:3])) = ${at} OR ARRAY(SELECT unnest(corners[4:4])) = ${at}`;
         assert.equal(labels[i], Number(psql(`SELECT labels[1] FROM abacus_cells('ore') WHERE (${has(a)}) AND (${has(b)}) AND (${has(c)})`)), String(i));
     }
+    // a label of few values has a colour for each; of many values only the range counts
+    assert.deepEqual((await servers.ore.get("/api/label?name=rock")).body, { least: 1, greatest: 4, values: [1, 2, 3, 4] });
+    assert.deepEqual((await servers.ore.get("/api/label?name=east")).body.values, null);
+    for (const path of ["label", "label?name=none", "body?label=none", `label?name=${encodeURIComponent("rock'); DROP TABLE ore; --")}`]) assert.equal((await servers.ore.get(`/api/${path}`)).status, 400, path);
     // at a fault two vertices at one place, each with the value of its side
     const split = (await servers.split.get("/api/body?attribute=vs")).body;
     assert.equal(split.positions.length / 3, 9);
@@ -73,7 +77,7 @@ test("a mesh is cut open; labels are colours; a series of attributes is run thro
     await open("ore");
     assert.equal(await data("outline"), "hull");
     await display();
-    assert.deepEqual(await page.locator("#attribute option").allInnerTexts(), ["vs_0", "vs_5", "vs_10", "other", "rock (label)"]);
+    assert.deepEqual(await page.locator("#attribute option").allInnerTexts(), ["vs_0", "vs_5", "vs_10", "other", "rock (label)", "east (label)"]);
     const legend = () => page.locator("#legend").innerText(), range = await legend();
     assert.match(range, /vs_0[^]*1 of 3/);
     // the whole series has one range of colours
@@ -92,6 +96,8 @@ test("a mesh is cut open; labels are colours; a series of attributes is run thro
     assert.ok(await share([[0, 114, 178], [230, 159, 0], [0, 158, 115], [204, 121, 167]]) > 0.08);
     await take("labels");
     await display();
+    await page.locator("#attribute").selectOption({ label: "east (label)" });
+    await page.waitForFunction(() => document.getElementById("legend-ramp").checkVisibility() && document.getElementById("legend-name").textContent === "east");
     await page.locator("#body").selectOption("whole");
     await page.waitForFunction(() => document.getElementById("view").ariaBusy !== "true");
     await page.locator("#display .close").click();

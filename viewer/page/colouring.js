@@ -1,9 +1,10 @@
-// The colours of a mesh in space: of an attribute on a palette, or of a label, one colour for each of its values. A colour is a
+// The colours of a mesh in space: of an attribute on a palette, or of a label, one colour for each of its values if they are few. A colour is a
 // place on a texture, so that the values between the corners of a triangle have the colours that the legend shows.
 import * as three from "three";
 import { element, made } from "./common.js";
 import { drawLegend } from "./legend.js";
 import { drawPalette } from "./palette.js";
+import { ask } from "./requests.js";
 import { mesh, theme } from "./scene.js";
 import { rangeOf } from "./series.js";
 
@@ -18,25 +19,32 @@ export const label = () => (attribute() ? null : mesh.labels[Number(/^label (\d+
 export const named = (parameters) => ({ ...parameters, ...(attribute() && { attribute: attribute().name }) });
 export const labelAt = () => mesh.labels.indexOf(label());
 
+let values = { least: null, greatest: null, values: null }; // of the label that is chosen
+
+/** Reads the values of the label, if one is chosen. */
+export async function readLabel() {
+    if (label()) values = await ask("label", { name: label() });
+}
+/** Whether each value has a colour of its own; more than can be told apart are on the palette. */
+const isOfKinds = () => label() !== null && values.values !== null;
+
 export function colourRange() {
-    const [low, high] = attribute() ? rangeOf(attribute(), mesh.attributes) : [0, 1];
+    const [low, high] = attribute() ? rangeOf(attribute(), mesh.attributes) : label() ? [values.least, values.greatest] : [0, 1];
     return low === null ? [0, 1] : [low, high > low ? high : low + 1];
 }
 
 let texture = null;
-/** Values of the label, in the order in which they were seen first; each keeps its colour. */
-const seen = new Map();
 
 /** The palette above, and what has no value below. */
 function paint() {
     const canvas = document.createElement("canvas"), context = canvas.getContext("2d");
     [canvas.width, canvas.height] = [width, 2];
-    if (label()) categories.forEach((colour, i) => { context.fillStyle = colour; context.fillRect((i * width) / categories.length, 0, width / categories.length + 1, 1); });
+    if (isOfKinds()) categories.forEach((colour, i) => { context.fillStyle = colour; context.fillRect((i * width) / categories.length, 0, width / categories.length + 1, 1); });
     else drawPalette(Object.assign(canvas, { width, height: 2 }), element("ramp").value);
     context.fillStyle = `#${theme().body.toString(16)}`;
     context.fillRect(0, 1, width, 1);
     texture = new three.CanvasTexture(canvas);
-    Object.assign(texture, { colorSpace: three.SRGBColorSpace, generateMipmaps: false, minFilter: label() ? three.NearestFilter : three.LinearFilter, magFilter: label() ? three.NearestFilter : three.LinearFilter });
+    Object.assign(texture, { colorSpace: three.SRGBColorSpace, generateMipmaps: false, minFilter: isOfKinds() ? three.NearestFilter : three.LinearFilter, magFilter: isOfKinds() ? three.NearestFilter : three.LinearFilter });
 }
 /** A texture for a material of its own. */
 export const palette = () => (paint(), texture);
@@ -44,10 +52,7 @@ export const palette = () => (paint(), texture);
 /** Where on the texture a value is. */
 export function place(value) {
     if (value === null || value === undefined || !(attribute() || label())) return [0.5, 0.25];
-    if (label()) {
-        if (!seen.has(value)) seen.set(value, seen.size);
-        return [((seen.get(value) % categories.length) + 0.5) / categories.length, 0.75];
-    }
+    if (isOfKinds()) return [(values.values.indexOf(value) + 0.5) / categories.length, 0.75];
     const [low, high] = colourRange(), share = Math.min(Math.max((value - low) / (high - low), 0), 1);
     return [(share * (width - 1) + 0.5) / width, 0.75];
 }
@@ -61,19 +66,15 @@ export function colourOf(value) {
     return new three.Color(`rgb(${r}, ${g}, ${b})`);
 }
 
-export const forgetLabels = () => seen.clear();
-
 export function legend() {
-    const isBare = !attribute() && !label();
-    document.body.classList.toggle("bare", isBare);
-    document.body.classList.toggle("labelled", Boolean(label()));
-    if (attribute()) drawLegend({ name: attribute().name, unit: element("unit").value, palette: element("ramp").value, range: colourRange() });
-    if (!label()) return;
-    element("legend-name").textContent = label();
-    element("legend-unit").textContent = "";
-    element("legend-values").replaceChildren(...[...seen].sort(([a], [b]) => a - b).slice(0, 40).map(([value, at]) => {
+    const name = attribute()?.name ?? label();
+    document.body.classList.toggle("bare", name === null);
+    document.body.classList.toggle("labelled", isOfKinds());
+    if (name === null) return;
+    drawLegend({ name, unit: element("unit").value, palette: element("ramp").value, range: colourRange() });
+    element("legend-values").replaceChildren(...(isOfKinds() ? values.values : []).map((value, i) => {
         const patch = made("i", {});
-        patch.style.background = categories[at % categories.length];
+        patch.style.background = categories[i];
         return made("li", {}, patch, value.toLocaleString("en", { maximumSignificantDigits: 6 }));
     }));
 }

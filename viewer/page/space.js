@@ -1,7 +1,7 @@
 // The page of a mesh in space, an octree or a quadtree: its tools and settings.
 import * as three from "three";
 import { answering, centroid, counted, describe, element, made, number, offerWalk, openPanel, say, setUpPanels, surround, table, tool } from "./common.js";
-import { forgetLabels, label, legend, named } from "./colouring.js";
+import { label, legend, named, readLabel } from "./colouring.js";
 import { change, setUpEditing } from "./editing.js";
 import { placeIcons } from "./icons.js";
 import { plain } from "./numbers.js";
@@ -16,7 +16,7 @@ const colours = { simplex: 0xd6246e, neighbour: 0x1c2a2c, ray: 0xb3261e, star: 0
 const isOctree = mesh.kind === "octree";
 const first = isEmpty ? "The mesh has no tetrahedra yet." : isFlat ? "Click a place." : "Click a place on the plane or on the mesh.";
 
-const bodyAgain = latest(async () => { await body(); legend(); }), cutAgain = latest(async () => { await section(); legend(); }), surfaceAgain = latest(surface);
+const bodyAgain = latest(body), cutAgain = latest(section), surfaceAgain = latest(surface);
 const all = () => Promise.all([bodyAgain(), cutAgain(), surfaceAgain()]);
 
 function moveTo(value) {
@@ -186,12 +186,13 @@ element("cut").addEventListener("input", () => moveTo(Number(element("cut").valu
 element("axis").addEventListener("change", () => { moveTo(500); turn(); });
 element("level").addEventListener("input", surfaceAgain);
 for (const id of ["body", "ramp", "mesh-edges"]) element(id).addEventListener("change", all);
-element("attribute").addEventListener("change", () => {
-    forgetLabels();
+const recolour = latest(async () => {
     element("level").disabled = Boolean(label());
+    await readLabel();
     legend();
-    all();
+    await all();
 });
+element("attribute").addEventListener("change", recolour);
 element("unit").addEventListener("input", legend);
 element("height").addEventListener("input", () => {
     exaggerate(Number((10 ** (Number(element("height").value) / 100)).toPrecision(2)));
@@ -225,11 +226,10 @@ element("mesh-edges").checked = isOctree || mesh.simplices < 300_000;
 if (isLow && !isFlat) [element("axis").value, element("cut").value] = ["1", "350"];
 element("height").value = String(Math.round(100 * Math.log10(exaggeration())));
 writeHeight();
-setUpSeries(() => mesh.attributes, all);
-legend();
+setUpSeries(() => mesh.attributes, recolour);
 if (mesh.edit) setUpEditing(async () => { await reread(); put("found", null); await all(); }, markChanges);
 say(first);
 element("cut-value").textContent = `${"xyz"[axis()]} = ${plain(at(), extent[axis()])}`;
-await all();
+await recolour();
 turn();
 view.dataset.ready = "true";
