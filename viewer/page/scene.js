@@ -75,7 +75,7 @@ scene.add(camera);
 export function fit() {
     const size = extent.map((x, i) => x * scales()[i]), radius = Math.hypot(...size) / 2 || 1;
     const half = Math.tan((camera.fov * Math.PI) / 360) * Math.min(camera.aspect * 0.92, 0.92);
-    const far = isFlat ? Math.max(size[0] / 2 / camera.aspect, size[1] / 2) / Math.tan((camera.fov * Math.PI) / 360) * 1.25 : radius / half * 0.88;
+    const far = isFlat ? Math.max(size[0] / 2 / camera.aspect, size[1] / 2) / Math.tan((camera.fov * Math.PI) / 360) * 1.25 : (radius / half) * (camera.aspect < 1 ? 1.04 : 0.88);
     camera.position.copy(home).setLength(far);
     controls.target.set(0, 0, 0);
     controls.update();

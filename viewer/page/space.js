@@ -14,7 +14,7 @@ import { ask } from "./requests.js";
 const view = element("view");
 const colours = { simplex: 0xd6246e, neighbour: 0x1c2a2c, ray: 0xb3261e, star: 0x7a3e9d };
 const isOctree = mesh.kind === "octree";
-const first = isEmpty ? "The mesh has no tetrahedra yet." : isFlat ? "Click a place." : "Click a place on the plane or on the mesh.";
+const first = isEmpty ? "The mesh has no tetrahedra yet." : "Click a place.";
 
 const bodyAgain = latest(body), cutAgain = latest(section), surfaceAgain = latest(surface);
 const all = () => Promise.all([bodyAgain(), cutAgain(), surfaceAgain()]);
@@ -180,7 +180,7 @@ element("go").addEventListener("submit", (event) => {
 element("tools").addEventListener("change", ({ target }) => {
     if (target.name !== "tool") return;
     moved = null;
-    say("Click a place on the plane.");
+    say(first);
 });
 element("cut").addEventListener("input", () => moveTo(Number(element("cut").value)));
 element("axis").addEventListener("change", () => { moveTo(500); turn(); });
