@@ -106,7 +106,7 @@ export const space = {
     info,
     etag: plane.etag,
     located: located(3),
-    cells: `SELECT ${corners} FROM abacus_cells($1::oid::regclass, ARRAY[$2, $3, $4]::float8[], ARRAY[$2, $3, $4]::float8[])`,
+    cells: `SELECT ${corners}, labels FROM abacus_cells($1::oid::regclass, ARRAY[$2, $3, $4]::float8[], ARRAY[$2, $3, $4]::float8[])`,
     values: values(3),
     nearest: `SELECT vertex, x, y, z, attributes, distance FROM abacus_nearest($1::oid::regclass, $2::float8, $3::float8, $4::float8, 1)`,
     section: `SELECT polygon, "values", labels FROM abacus_section($1::oid::regclass, $2::float8[], $3::float8[], $4::text) LIMIT $5`,

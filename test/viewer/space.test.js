@@ -76,6 +76,11 @@ test("sections of octrees and of meshes are the pictures of SQL", async () => {
 test("a mesh is cut open; labels are colours; a series of attributes is run through", async () => {
     await open("ore");
     assert.equal(await data("outline"), "hull");
+    // coordinates and value under the pointer
+    await page.mouse.move(500, 330);
+    await page.waitForFunction(() => document.querySelector("#pointer strong"));
+    const [place, value] = await Promise.all(["span", "strong"].map((name) => page.locator(`#pointer ${name}`).innerText()));
+    assert.ok(Math.abs(Number(value) - Number(psql(`SELECT abacus_interpolate('ore', ${place.split(/\s+/).join(", ")}, 'vs_0')`))) < 2, `${place}: ${value}`);
     await display();
     assert.deepEqual(await page.locator("#attribute option").allInnerTexts(), ["vs_0", "vs_5", "vs_10", "other", "rock (label)", "east (label)"]);
     const legend = () => page.locator("#legend").innerText(), range = await legend();
@@ -151,5 +156,10 @@ test("an empty mesh in space is said to be empty; a fault has both of its sides"
     assert.deepEqual(await page.evaluate(contrasts, ".card *"), []);
     await page.locator("#axis").selectOption("1");
     await page.locator("#display .close").click();
+    for (const [width, height] of [[390, 780], [820, 1100]]) {
+        await page.setViewportSize({ width, height });
+        assert.deepEqual(await page.evaluate(() => [...document.querySelectorAll(".card")].filter((one) => one.checkVisibility()).map((one) => [one.id || one.className, one.getBoundingClientRect()])
+            .filter(([, box]) => box.left < -1 || box.top < -1 || box.right > innerWidth + 1 || box.bottom > innerHeight + 1).map(([id]) => id)), []);
+    }
     await page.screenshot({ path: `${pictures}/viewer_fault.jpg`, quality: 75 });
 });

@@ -3,7 +3,7 @@
 import * as maplibre from "maplibre-gl";
 import { answering, element, made, number, say, table } from "./common.js";
 import { comparison } from "./comparison.js";
-import { greatestDifference, setDifference } from "./difference.js";
+import { usualDifference, setDifference } from "./difference.js";
 import { attribute, coordinates, map, mesh, named, tileAddress } from "./map.js";
 import { measured } from "./numbers.js";
 import { ask, request } from "./requests.js";
@@ -29,7 +29,7 @@ async function choose(others) {
             .map((address) => (z, x, y) => address.replace("{z}", z).replace("{x}", x).replace("{y}", y));
         setDifference({ addresses, most: 1 });
         const [a, b] = [mesh.lower, mesh.upper].map((place) => maplibre.MercatorCoordinate.fromLngLat(coordinates.toMap(place)));
-        const most = await greatestDifference([a.x, b.y, b.x, a.y]);
+        const most = await usualDifference([a.x, b.y, b.x, a.y]);
         setDifference({ addresses, most: most || 1 });
         Object.assign(comparison, { with: other.of, most: most || 1, name: `${attribute().name} − ${other.title}`, attribute: name, title: other.title });
         element("volume").disabled = false;
@@ -42,7 +42,8 @@ async function choose(others) {
 async function volumes() {
     const { area, cut, fill, net } = await ask("volume", { of: comparison.with, own: attribute().name, attribute: comparison.attribute });
     const { unit } = coordinates;
-    say([made("p", { class: "value" }, `${number(net)}`), table([["Net volume", number(net)], [`Above ${comparison.title}`, number(cut)], [`Below ${comparison.title}`, number(fill)],
+    const words = (volume) => volume.toLocaleString("en", { maximumSignificantDigits: 8 });
+    say([made("p", { class: "value" }, words(net)), table([["Net volume", words(net)], [`Above ${comparison.title}`, words(cut)], [`Below ${comparison.title}`, words(fill)],
         ["Area in common", coordinates.isGeographic ? number(area) : measured(area, unit, 2)]])]);
 }
 

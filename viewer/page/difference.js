@@ -32,13 +32,15 @@ maplibre.addProtocol("difference", async ({ url }) => {
     return { data: await createImageBitmap(pixels) };
 });
 
-/** The greatest difference, up or down, within a box of the map, [left, top, right, bottom] from 0 to 1; 0 if there is none. */
-export async function greatestDifference([left, top, right, bottom]) {
+const usual = 0.99; // of the pixels; the few beyond, as at cliffs, have the last colour
+
+/** The difference, up or down, that hardly any place exceeds within a box of the map, [left, top, right, bottom] from 0 to 1; 0 if there is none. */
+export async function usualDifference([left, top, right, bottom]) {
     const zoom = Math.max(0, Math.min(22, Math.ceil(Math.log2(2 / Math.max(right - left, bottom - top, 1e-9))))), count = 2 ** zoom;
-    const tile = (share) => Math.min(Math.max(Math.floor(share * count), 0), count - 1);
-    let most = 0;
+    const tile = (share) => Math.min(Math.max(Math.floor(share * count), 0), count - 1), found = [];
     for (let y = tile(top); y <= tile(bottom); ++y)
         for (let x = tile(left); x <= tile(right); ++x)
-            for (const difference of await differences(zoom, x, y)) if (Math.abs(difference) > most) most = Math.abs(difference);
-    return most;
+            for (const difference of await differences(zoom, x, y)) if (!Number.isNaN(difference)) found.push(Math.abs(difference));
+    const sorted = Float32Array.from(found).sort(), most = sorted.at(-1) ?? 0;
+    return sorted[Math.floor(usual * (sorted.length - 1))] || most;
 }

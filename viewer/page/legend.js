@@ -6,7 +6,7 @@ import { drawPalette } from "./palette.js";
 /** Values at even steps within a range, from 3 to 6 of them. */
 export function ticks([low, high]) {
     const step = niceBelow((high - low) / 3), found = [];
-    for (let i = Math.ceil(low / step - 1e-9); i * step <= high + step * 1e-9; ++i) found.push(i * step);
+    for (let i = Math.ceil(low / step - 1e-9); i * step <= high + step * 1e-9; ++i) found.push(i * step || 0); // not -0
     return { step, values: found };
 }
 

@@ -6,6 +6,7 @@ import { change, setUpEditing } from "./editing.js";
 import { placeIcons } from "./icons.js";
 import { plain } from "./numbers.js";
 import { locateLeaf } from "./octant.js";
+import { point } from "./pointer.js";
 import { camera, canvas, controls, dark, dots, edges, exaggerate, exaggeration, extent, fit, isEmpty, isFlat, isLow, marks, mesh, objects, paintGround, put, reread, scales, toMesh } from "./scene.js";
 import { setUpSeries } from "./series.js";
 import { at, axis, body, isCutAway, latest, lookCloser, pickable, placeOnPlane, section, surface, turn } from "./solid.js";
@@ -151,10 +152,10 @@ addEventListener("pointerup", () => {
     controls.enabled = true;
 });
 canvas.addEventListener("pointermove", (event) => {
-    const place = event.buttons === 0 ? hit(event)?.point : null;
-    element("pointer").replaceChildren(...(place ? [made("span", {}, toMesh(place).slice(0, mesh.dimension).map((x) => Number(x.toPrecision(6)).toLocaleString("en")).join("  "))] : []));
+    const found = event.buttons === 0 ? hit(event)?.point : null;
+    point(found ? toMesh(found).slice(0, mesh.dimension) : null);
 });
-canvas.addEventListener("pointerleave", () => element("pointer").replaceChildren());
+canvas.addEventListener("pointerleave", () => point(null));
 canvas.addEventListener("keydown", (event) => {
     if (event.key === "Enter") use(placeOnPlane().slice(0, mesh.dimension));
     else if (event.key === "Escape") forget();
