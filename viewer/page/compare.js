@@ -4,7 +4,7 @@ import * as maplibre from "maplibre-gl";
 import { answering, element, made, number, say, table } from "./common.js";
 import { comparison } from "./comparison.js";
 import { usualDifference, setDifference } from "./difference.js";
-import { attribute, coordinates, map, mesh, named, tileAddress } from "./map.js";
+import { attribute, coordinates, map, mesh, tileAddress } from "./map.js";
 import { measured } from "./numbers.js";
 import { ask, request } from "./requests.js";
 

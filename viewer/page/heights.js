@@ -31,7 +31,7 @@ async function load(address) {
 }
 
 /** Heights of a tile, NaN outside the mesh. */
-export const heightsOf = (z, x, y) => heightsAt(settings.address(z, x, y));
+const heightsOf = (z, x, y) => heightsAt(settings.address(z, x, y));
 
 /** The same of a tile at an address. */
 export function heightsAt(address) {

@@ -6,7 +6,7 @@ import { icon } from "./icons.js";
 const pause = 700; // ms between two steps, at least
 
 /** The attributes that are a series with this one, in the order of their numbers; itself alone if there are none. */
-export function seriesOf(attribute, attributes) {
+function seriesOf(attribute, attributes) {
     const parts = (name) => /^(.*?)(-?\d+(?:\.\d+)?)(\D*)$/.exec(name);
     const own = parts(attribute.name);
     if (!own) return [attribute];
