@@ -179,22 +179,23 @@ function coloured(p, mesh) {
     return { name, range: low === null || high === null ? null : [low, high > low ? high : low + 1], ramp: name === null ? null : p.text("ramp") };
 }
 
-/** Width and height in pixels of a picture of a box of this size. */
+/** Width and height in pixels of a picture of a rectangle of this shape. */
 function pixels(width, height, most) {
     const scale = most / Math.max(width, height);
     return [width, height].map((side) => Math.min(Math.max(Math.round(side * scale), 16), most));
 }
 
-/** The section across an axis, as large as the mesh. */
-function sectionPicture(p, mesh, most, isBrief = false) {
-    const axis = isBrief ? 1 : ["x", "y", "z"].indexOf(p.text("axis"));
-    if (axis < 0) throw wrong("axis must be x, y or z");
-    const { lower, upper } = mesh, at = isBrief ? (lower[1] + upper[1]) / 2 : p.number("at");
-    if (lower[0] === null) throw new Refused(404, "the mesh is empty");
-    const through = [...lower], normal = [0, 0, 0], sides = upper.map((x, i) => x - lower[i]).filter((_, i) => i !== axis);
-    [through[axis], normal[axis]] = [at, 1];
-    const size = isBrief ? sideOfBrief : pixels(...sides, most), { name, range, ramp } = coloured(p, mesh);
-    return [through, normal, ...size, name, isBrief ? false : p.flag("edges"), lower, upper, isBrief ? (sides[0] * size[1]) / (sides[1] * size[0]) || 1 : 1, range, isBrief ? "strata" : ramp];
+/** The section by a plane, within the box around the mesh; `shape` is that of the rectangle. */
+function sectionPicture(p, { lower, upper, ...mesh }, most) {
+    const [width, height] = p.numbers("shape", 2, 2), { name, range, ramp } = coloured(p, mesh);
+    if (!(width > 0 && height > 0)) throw wrong("shape must be a width and a height");
+    return [p.numbers("through", 3, 3), p.numbers("normal", 3, 3), ...pixels(width, height, most), name, p.flag("edges"), lower, upper, 1, range, ramp];
+}
+
+/** The section from west to east through the middle, stretched to the small picture. */
+function briefSection(p, { lower, upper, ...mesh }) {
+    const through = lower.map((x, i) => (x + upper[i]) / 2), [width, height] = sideOfBrief, { name, range } = coloured(p, mesh);
+    return [through, [0, 1, 0], width, height, name, false, lower, upper, ((upper[0] - lower[0]) * height) / ((upper[2] - lower[2]) * width) || 1, range, "strata"];
 }
 
 /** A quadtree, or a window of it. */
@@ -220,7 +221,8 @@ export function picture(kind, p, { queries, dimension, kind: what }, mesh) {
     if (mesh.lower[0] === null) throw new Refused(404, "the mesh is empty");
     if (kind === "brief" && what === "mesh" && dimension === 2) return briefOfPlane(mesh);
     if (kind !== "brief" && (what === "mesh" && dimension === 2)) throw new Refused(404, "not found");
-    return { text: queries.picture, values: (dimension === 2 ? wholePicture : sectionPicture)(p, mesh, mostSide, kind === "brief") };
+    if (dimension === 2) return { text: queries.picture, values: wholePicture(p, mesh, mostSide, kind === "brief") };
+    return { text: queries.picture, values: kind === "brief" ? briefSection(p, mesh) : sectionPicture(p, mesh, mostSide) };
 }
 
 // ---- Changes ------------------------------------------------------------------------------------

@@ -2,6 +2,7 @@
 // sections as pictures, both sides of a fault.
 import assert from "node:assert/strict";
 import { test } from "node:test";
+import { normalOf, rangeAlong, sheetOf } from "../../viewer/page/cut.js";
 import { cell, click, differs, display, open, page, pictures, says, servers, setUp, take } from "./browser.js";
 import { contrasts } from "./contrast.js";
 import { connect, eventually, psql, serve } from "./support.js";
@@ -63,13 +64,30 @@ test("the surface of the mesh as SQL has it: vertices with their own values, lab
 });
 
 test("sections of octrees and of meshes are the pictures of SQL", async () => {
-    for (const [name, path, sql] of [["ground", "axis=x&at=1000&attribute=vs&low=200&high=2200&ramp=magma", "abacus_draw_section('ground', '{1000,0,-2000}', '{1,0,0}', 2048, 1024, attribute => 'vs', edges => false, lower => '{0,0,-2000}', upper => '{4000,4000,0}', range => '{200,2200}', ramp => 'magma', transparent => true)"],
-        ["ground", "axis=z&at=-3&edges=yes", "abacus_draw_section('ground', '{0,0,-3}', '{0,0,1}', 2048, 2048, attribute => 'vs', edges => true, lower => '{0,0,-2000}', upper => '{4000,4000,0}', range => (SELECT ARRAY[least, greatest] FROM abacus_attributes('ground')), transparent => true)"],
+    for (const [name, path, sql] of [["ground", "through=1000,0,-2000&normal=1,0,0&shape=4000,2000&attribute=vs&low=200&high=2200&ramp=magma", "abacus_draw_section('ground', '{1000,0,-2000}', '{1,0,0}', 2048, 1024, attribute => 'vs', edges => false, lower => '{0,0,-2000}', upper => '{4000,4000,0}', range => '{200,2200}', ramp => 'magma', transparent => true)"],
+        ["ground", "through=0,0,-3&normal=0,0,1&shape=1,1&edges=yes", "abacus_draw_section('ground', '{0,0,-3}', '{0,0,1}', 2048, 2048, attribute => 'vs', edges => true, lower => '{0,0,-2000}', upper => '{4000,4000,0}', range => (SELECT ARRAY[least, greatest] FROM abacus_attributes('ground')), transparent => true)"],
+        ["ground", "through=2000,2000,-1000&normal=1,2,3&shape=3,2&attribute=vs", "abacus_draw_section('ground', '{2000,2000,-1000}', '{1,2,3}', 2048, 1365, attribute => 'vs', edges => false, lower => '{0,0,-2000}', upper => '{4000,4000,0}', range => (SELECT ARRAY[least, greatest] FROM abacus_attributes('ground')), transparent => true)"],
         ["soil", "window=1000,500,3000,1500", "abacus_draw('soil', 2048, 1024, attribute => 'vs', edges => false, lower => '{1000,500}', upper => '{3000,1500}', range => (SELECT ARRAY[least, greatest] FROM abacus_attributes('soil')), transparent => true)"]]) {
         const response = await fetch(`${servers[name].origin}/pictures/whole?${path}`);
         assert.equal(response.status, 200, path);
         assert.equal(Buffer.from(await response.arrayBuffer()).toString("hex"), psql(`SELECT encode(${sql}, 'hex')`), path);
         assert.equal((await fetch(`${servers[name].origin}/pictures/whole?${path}`, { headers: { "If-None-Match": response.headers.get("etag") } })).status, 304);
+    }
+});
+
+test("a plane in any direction: the sheet that just holds its part in the box", () => {
+    const lower = [1, 2, 3], upper = [5, 8, 4], near = (a, b) => assert.ok(a.flat().every((x, i) => Math.abs(x - b.flat()[i]) < 1e-12), `${a} ${b}`);
+    near(sheetOf([0, 1, 0], 5, lower, upper).corners, [[1, 5, 3], [5, 5, 3], [5, 5, 4], [1, 5, 4]]);
+    near(sheetOf([0, 0, 1], 3, lower, upper).corners, [[1, 2, 3], [5, 2, 3], [5, 8, 3], [1, 8, 3]]); // a side of the box
+    near(sheetOf([2, 0, 0], 4, lower, upper).corners, [[2, 2, 3], [2, 8, 3], [2, 8, 4], [2, 2, 4]]); // a normal of another length
+    assert.equal(sheetOf([1, 0, 0], 9, lower, upper), null);
+    near([normalOf(0, 90), normalOf(90, 90), normalOf(45, 0)], [[0, 1, 0], [1, 0, 0], [0, 0, 1]]);
+    for (const [direction, dip, share] of [[150, 60, 0.5], [20, 35, 0.3], [275, 80, 0.9]]) {
+        const normal = normalOf(direction, dip), [low, high] = rangeAlong(normal, lower, upper), distance = low + share * (high - low);
+        const { corners, width, height } = sheetOf(normal, distance, lower, upper), minus = (a, b) => a.map((x, i) => x - b[i]), dot = (a, b) => a.reduce((sum, x, i) => sum + x * b[i], 0);
+        for (const corner of corners) assert.ok(Math.abs(dot(normal, corner) - distance) < 1e-12);
+        const [right, up] = [minus(corners[1], corners[0]), minus(corners[3], corners[0])];
+        assert.ok(Math.abs(dot(right, up)) < 1e-12 && right[0] >= 0 && Math.abs(Math.hypot(...right) - width) < 1e-12 && Math.abs(Math.hypot(...up) - height) < 1e-12);
     }
 });
 
@@ -103,6 +121,12 @@ test("a mesh is cut open; labels are colours; a series of attributes is run thro
     await display();
     await page.locator("#attribute").selectOption({ label: "east (label)" });
     await page.waitForFunction(() => document.getElementById("legend-ramp").checkVisibility() && document.getElementById("legend-name").textContent === "east");
+    await page.locator("#axis").selectOption("3"); // a plane in any direction
+    const isTurned = (response) => Math.abs(Number(new URL(response.url()).searchParams.get("normal")?.split(",")[2]) - normalOf(0, 35)[2]) < 1e-9;
+    const [answer] = await Promise.all([page.waitForResponse((response) => /section\?/.test(response.url()) && isTurned(response)), page.locator("#dip").fill("35")]);
+    const { through, normal } = Object.fromEntries(new URL(answer.url()).searchParams);
+    await page.waitForFunction((count) => document.getElementById("view").dataset.polygons === count, psql(`SELECT count(*) FROM abacus_section('ore', '{${through}}', '{${normal}}', 'vs_0')`));
+    await page.locator("#axis").selectOption("2");
     await page.locator("#body").selectOption("whole");
     await page.waitForFunction(() => document.getElementById("view").ariaBusy !== "true");
     await page.locator("#display .close").click();

@@ -3,7 +3,8 @@
 import * as three from "three";
 import { answering, counted, element, number, say } from "./common.js";
 import { attribute, colourOf, colourRange, label, labelAt, named, palette, place } from "./colouring.js";
-import { box, camera, corners, extent, geometry, isEmpty, isFlat, lines, mesh, middle, objects, put, render, scales, smooth, theme, toScene } from "./scene.js";
+import { normalOf, rangeAlong, sheetOf } from "./cut.js";
+import { box, camera, corners, geometry, isEmpty, isFlat, lines, mesh, middle, objects, put, render, scales, smooth, theme, toScene } from "./scene.js";
 import { ask, root, sessionHeaders } from "./requests.js";
 
 const view = element("view");
@@ -11,10 +12,20 @@ const mostSimplices = 300_000; // of a mesh whose section is sent as polygons, a
 const mostLines = 20_000; // triangles of a hull whose edges are drawn; more would hide what is behind them
 const isOctree = mesh.kind === "octree";
 
+const free = 3; // the plane is across no axis
 export const axis = () => Number(element("axis").value);
-export const share = () => Number(element("cut").value) / 1000;
-export const at = () => corners.lower[axis()] + share() * extent[axis()];
-export const placeOnPlane = () => middle.map((x, i) => (i === axis() ? at() : x));
+const share = () => Number(element("cut").value) / 1000;
+export const normal = () => (axis() === free ? normalOf(Number(element("direction").value), Number(element("dip").value)) : [0, 1, 2].map((i) => Number(i === axis())));
+/** The least and the greatest distance of the plane along its normal. */
+const range = () => rangeAlong(normal(), corners.lower, corners.upper);
+export const length = () => range()[1] - range()[0];
+/** The coordinate of the plane, or its distance along its normal. */
+export const at = () => range()[0] + share() * length();
+export function placeOnPlane() {
+    if (axis() !== free) return middle.map((x, i) => (i === axis() ? at() : x));
+    const n = normal(), away = at() - n.reduce((sum, x, i) => sum + x * middle[i], 0);
+    return middle.map((x, i) => x + away * n[i]);
+}
 const shows = (what) => element("body").value === what;
 const hasEdges = () => element("mesh-edges").checked;
 
@@ -25,9 +36,9 @@ const clipping = () => (shows("cut") && !isFlat ? [clip] : []);
 /** What is between the plane and the viewer is cut away. */
 function face() {
     if (isFlat) return;
-    const height = (at() - middle[axis()]) * scales()[axis()], side = camera.position.getComponent(axis()) >= height ? -1 : 1;
-    clip.normal.set(0, 0, 0).setComponent(axis(), side);
-    clip.constant = -side * height;
+    const across = new three.Vector3(...normal().map((x, i) => x / scales()[i])).normalize(); // in the scene
+    clip.setFromNormalAndCoplanarPoint(across, new three.Vector3(...toScene(placeOnPlane())));
+    if (clip.distanceToPoint(camera.position) >= 0) clip.negate();
 }
 export const isCutAway = (point) => clipping().length > 0 && clip.distanceToPoint(point) < -1e-6;
 
@@ -42,20 +53,16 @@ async function picture(parameters) {
     return Object.assign(texture, { colorSpace: three.SRGBColorSpace, flipY: false, anisotropy: 8, needsUpdate: true });
 }
 
-/** A rectangle with a picture; `along` are its axes, to the right and upwards. */
-function sheet(lower, upper, along, map, material = {}) {
-    const positions = [[0, 0], [1, 0], [1, 1], [0, 1]].map((uv) => toScene(lower.map((x, i) => {
-        const which = along.indexOf(i);
-        return which >= 0 && uv[which] ? upper[i] : x;
-    })));
-    const made = geometry(positions.flat(), [0, 0, 1, 0, 1, 1, 0, 1], [0, 1, 2, 0, 2, 3]);
+/** A rectangle with a picture; its corners are those of the picture, counterclockwise from the one to the left below. */
+function sheet(corners, map, { isLit, clippingPlanes = [] } = {}) {
+    const made = geometry(corners.flatMap(toScene), [0, 0, 1, 0, 1, 1, 0, 1], [0, 1, 2, 0, 2, 3]);
     made.computeVertexNormals();
-    return new three.Mesh(made, new (material.isLit ? three.MeshLambertMaterial : three.MeshBasicMaterial)({ map, side: three.DoubleSide, alphaTest: 0.5, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1, clippingPlanes: material.clippingPlanes ?? [] }));
+    return new three.Mesh(made, new (isLit ? three.MeshLambertMaterial : three.MeshBasicMaterial)({ map, side: three.DoubleSide, alphaTest: 0.5, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 1, clippingPlanes }));
 }
-/** The section across an axis, as a picture in its place. */
-async function sectionSheet(axis, value, material) {
-    const [lower, upper] = [corners.lower, corners.upper].map((place) => place.map((x, i) => (i === axis ? value : x)));
-    return sheet(lower, upper, [0, 1, 2].filter((i) => i !== axis), await picture({ axis: "xyz"[axis], at: value }), material);
+/** The section by a plane, as a picture in its place; null where it does not meet the box. */
+async function sectionSheet(normal, distance, through, material) {
+    const found = sheetOf(normal, distance, corners.lower, corners.upper);
+    return found && sheet(found.corners, await picture({ through: through.join(","), normal: normal.join(","), shape: [found.width, found.height].join(",") }), material);
 }
 
 // ---- The body ----------------------------------------------------------------------------------------
@@ -75,8 +82,8 @@ export async function body() {
     else {
         const found = isOctree ? { isBox: true } : await ask("body", { ...(attribute() && named({})), ...(label() && { label: label() }) });
         if (found?.isBox && !shows("outline")) {
-            const sides = [0, 1, 2].flatMap((axis) => [corners.lower, corners.upper].map((place) => [axis, place[axis]]));
-            group.add(...await Promise.all(sides.map(([axis, value]) => sectionSheet(axis, value, { isLit: true, clippingPlanes: clipping() }))));
+            const sides = [0, 1, 2].flatMap((axis) => [corners.lower, corners.upper].map((place) => [[0, 1, 2].map((i) => Number(i === axis)), place[axis], place]));
+            group.add(...(await Promise.all(sides.map((side) => sectionSheet(...side, { isLit: true, clippingPlanes: clipping() })))).filter(Boolean));
         } else if (found?.triangles) {
             const { triangles } = found, positions = [];
             for (let i = 0; i < found.positions.length; i += 3) positions.push(...toScene(found.positions.slice(i, i + 3)));
@@ -101,7 +108,8 @@ export async function body() {
 let window = null;
 async function quadtree() {
     const [lower, upper] = window ?? [corners.lower, corners.upper];
-    return sheet(lower, upper, [0, 1], await picture({ window: [...lower.slice(0, 2), ...upper.slice(0, 2)].join(",") }));
+    const [[left, bottom], [right, top]] = [lower, upper];
+    return sheet([[left, bottom, 0], [right, bottom, 0], [right, top, 0], [left, top, 0]], await picture({ window: [left, bottom, right, top].join(",") }));
 }
 /** Reads the part that is on the screen. */
 export function lookCloser() {
@@ -118,8 +126,7 @@ export function lookCloser() {
 // ---- The section ---------------------------------------------------------------------------------------
 
 async function polygons() {
-    const normal = [0, 0, 0].map((_, i) => Number(i === axis()));
-    const rows = await ask("section", named({ through: placeOnPlane().join(","), normal: normal.join(",") }));
+    const rows = await ask("section", named({ through: placeOnPlane().join(","), normal: normal().join(",") }));
     const positions = [], uvs = [], outlines = [], ofLabel = labelAt();
     for (const { polygon, values, labels } of rows) {
         const count = polygon.length / 3, at = Array.from({ length: count }, (_, i) => polygon.slice(3 * i, 3 * i + 3)), places = at.map(toScene);
@@ -145,7 +152,7 @@ export async function section() {
         return;
     }
     const isPicture = isOctree || (mesh.simplices > mostSimplices && !label());
-    const made = isPicture ? new three.Group().add(await sectionSheet(axis(), at())) : await polygons();
+    const made = isPicture ? new three.Group().add(...[await sectionSheet(normal(), at(), placeOnPlane())].filter(Boolean)) : await polygons();
     view.dataset.section = isPicture ? "picture" : "polygons";
     put("section", made);
     turn();
@@ -160,18 +167,18 @@ export function turn() {
 // ---- A surface of one value ------------------------------------------------------------------------------
 
 export async function surface() {
-    const range = attribute(), step = Number(element("level").value);
-    if (!range || step === 0 || isOctree) {
+    const chosen = attribute(), step = Number(element("level").value);
+    if (!chosen || step === 0 || isOctree) {
         element("level-value").textContent = "off";
         return put("surface", null);
     }
-    const value = range.least + (step / 1000) * (range.greatest - range.least);
+    const value = chosen.least + (step / 1000) * (chosen.greatest - chosen.least);
     element("level-value").textContent = number(value);
     const triangles = await ask("isosurface", named({ value }));
     const positions = triangles.flatMap((row) => row.corners.flatMap(toScene));
     put("surface", positions.length ? new three.Mesh(smooth(positions), new three.MeshPhongMaterial({ color: colourOf(value), specular: 0x333333, shininess: 24, side: three.DoubleSide })) : null);
     view.dataset.triangles = triangles.length;
-    say(`The surface at ${range.name} = ${number(value)} has ${counted(triangles.length, "triangle")}.`);
+    say(`The surface at ${chosen.name} = ${number(value)} has ${counted(triangles.length, "triangle")}.`);
 }
 
 /** One request at a time; of those that come meanwhile the last. */

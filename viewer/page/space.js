@@ -7,9 +7,9 @@ import { placeIcons } from "./icons.js";
 import { plain } from "./numbers.js";
 import { locateLeaf } from "./octant.js";
 import { point } from "./pointer.js";
-import { camera, canvas, controls, dark, dots, edges, exaggerate, exaggeration, extent, fit, isEmpty, isFlat, isLow, marks, mesh, objects, paintGround, put, reread, scales, toMesh } from "./scene.js";
+import { camera, canvas, controls, dark, dots, edges, exaggerate, exaggeration, fit, isEmpty, isFlat, isLow, marks, mesh, objects, paintGround, put, reread, scales, toMesh } from "./scene.js";
 import { setUpSeries } from "./series.js";
-import { at, axis, body, isCutAway, latest, lookCloser, pickable, placeOnPlane, section, surface, turn } from "./solid.js";
+import { at, axis, body, isCutAway, latest, length, lookCloser, normal, pickable, placeOnPlane, section, surface, turn } from "./solid.js";
 import { ask } from "./requests.js";
 
 const view = element("view");
@@ -20,9 +20,16 @@ const first = isEmpty ? "The mesh has no tetrahedra yet." : "Click a place.";
 const bodyAgain = latest(body), cutAgain = latest(section), surfaceAgain = latest(surface);
 const all = () => Promise.all([bodyAgain(), cutAgain(), surfaceAgain()]);
 
+function writeCut() {
+    element("cut-value").textContent = `${axis() < 3 ? `${"xyz"[axis()]} = ` : ""}${plain(at(), length())}`;
+    for (const id of ["direction", "dip"]) {
+        element(id).parentElement.hidden = axis() < 3;
+        element(`${id}-value`).textContent = `${element(id).value}°`;
+    }
+}
 function moveTo(value) {
     element("cut").value = Math.min(Math.max(Math.round(value), 0), 1000);
-    element("cut-value").textContent = `${"xyz"[axis()]} = ${plain(at(), extent[axis()])}`;
+    writeCut();
     return cutAgain();
 }
 
@@ -133,9 +140,8 @@ canvas.addEventListener("pointerdown", (event) => {
     if (!drag.isOfPlane) return;
     controls.enabled = false; // the plane is taken, not the view
     canvas.setPointerCapture(event.pointerId);
-    // What a step of the plane looks like on the screen.
-    const step = found.point.clone();
-    step.setComponent(axis(), step.getComponent(axis()) + 0.1);
+    // What a tenth of the way of the plane looks like on the screen.
+    const across = normal().map((x, i) => x * scales()[i] * length() * 0.1), step = found.point.clone().add(new three.Vector3(...across));
     const a = found.point.clone().project(camera), b = step.project(camera);
     drag.way = new three.Vector2((b.x - a.x) * canvas.clientWidth, (a.y - b.y) * canvas.clientHeight).multiplyScalar(5);
 }, { capture: true });
@@ -144,7 +150,7 @@ canvas.addEventListener("pointermove", (event) => {
     const moved = new three.Vector2(event.clientX - drag.x, event.clientY - drag.y);
     drag.isMove ||= moved.length() > 4;
     if (!drag.isOfPlane || !drag.isMove || drag.way.lengthSq() === 0) return;
-    moveTo(drag.share + ((moved.dot(drag.way) / drag.way.lengthSq()) / (extent[axis()] * scales()[axis()])) * 1000);
+    moveTo(drag.share + (moved.dot(drag.way) / drag.way.lengthSq()) * 1000);
 });
 addEventListener("pointerup", () => {
     if (drag?.point && !drag.isMove) use(toMesh(drag.point).slice(0, mesh.dimension));
@@ -185,6 +191,7 @@ element("tools").addEventListener("change", ({ target }) => {
 });
 element("cut").addEventListener("input", () => moveTo(Number(element("cut").value)));
 element("axis").addEventListener("change", () => { moveTo(500); turn(); });
+for (const id of ["direction", "dip"]) element(id).addEventListener("input", () => { moveTo(Number(element("cut").value)); turn(); });
 element("level").addEventListener("input", surfaceAgain);
 for (const id of ["body", "ramp", "mesh-edges"]) element(id).addEventListener("change", all);
 const recolour = latest(async () => {
@@ -230,7 +237,7 @@ writeHeight();
 setUpSeries(() => mesh.attributes, recolour);
 if (mesh.edit) setUpEditing(async () => { await reread(); put("found", null); await all(); }, markChanges);
 say(first);
-element("cut-value").textContent = `${"xyz"[axis()]} = ${plain(at(), extent[axis()])}`;
+writeCut();
 await recolour();
 turn();
 view.dataset.ready = "true";
