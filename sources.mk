@@ -185,6 +185,7 @@ CORE.query_whole += src/query/check/check_threads.cpp
 CORE.query_whole += src/query/check/check.cpp
 CORE.query_whole += src/query/volume/overlaps.cpp
 CORE.query_whole += src/query/volume/volume.cpp
+CORE.query_whole += src/query/volume/comparison.cpp
 CORE.query_whole += src/query/pictures/portrait.cpp
 CORE.query_whole += src/query/pictures/ray_portrait.cpp
 

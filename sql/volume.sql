@@ -99,3 +99,17 @@ RESET ROLE;
 REVOKE SELECT ON roof FROM abacus_volume_reader;
 DROP ROLE abacus_volume_reader;
 DROP TABLE roof, ground, gaps, unknown, rock, empty, bare, vast;
+
+-- How two meshes differ.
+SELECT abacus_triangulate('compare_low', 'VALUES (1, 0, 0, 0.0), (2, 4, 0, 0.0), (3, 4, 4, 0.0), (4, 0, 4, 0.0)', '{h}');
+SELECT abacus_triangulate('compare_roof', 'VALUES (1, 0, 0, 0.0), (2, 4, 0, 0.0), (3, 4, 4, 0.0), (4, 0, 4, 0.0), (5, 2, 2, 3.0)', '{h}');
+SELECT * FROM abacus_compare('compare_roof', 'compare_low');
+SELECT greatest, x, y, mean, mean_absolute FROM abacus_compare('compare_low', 'compare_roof', lower => '{1, 0}', upper => '{1.5, 1}');
+SELECT greatest, mean, rms FROM abacus_compare('compare_roof', 'compare_roof');
+SELECT greatest, x, y FROM abacus_compare('compare_roof', 'compare_low', within => 'POLYGON((0 0, 1 0, 1 1, 0 1, 0 0))');
+SELECT * FROM abacus_compare('compare_roof', 'compare_low', lower => '{8, 8}', upper => '{9, 9}');
+SELECT abacus_compare(NULL, 'compare_low');
+SELECT abacus_compare('compare_roof', 'compare_low', 'slope');
+SELECT abacus_triangulate('compare_solid', 'VALUES (1, 0, 0, 0, 1), (2, 1, 0, 0, 1), (3, 0, 1, 0, 1), (4, 0, 0, 1, 1)', '{h}', dimension => 3);
+SELECT abacus_compare('compare_roof', 'compare_solid');
+DROP TABLE compare_low, compare_roof, compare_solid;

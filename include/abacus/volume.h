@@ -46,6 +46,25 @@ ABACUS_API abacus_status abacus_volume_between(const abacus_host *host,
 											   uint32_t other_attribute, size_t cache_bytes,
 											   abacus_volume *volume, abacus_error *error);
 
+/*
+ * How two surfaces differ where both are, the values of the first less those of the other: the
+ * greatest difference by its absolute value, and where; the mean, the mean of the absolute value, and
+ * the root of the mean square, weighted by area.
+ */
+typedef struct abacus_comparison
+{
+	int is_any;            /* 0: they have no part in common, and all else is 0 */
+	double greatest, place[2];
+	double mean, mean_absolute, rms;
+} abacus_comparison;
+
+/* Of two meshes, as abacus_volume_between(). */
+ABACUS_API abacus_status abacus_compare(const abacus_host *host, const abacus_facts *facts,
+										const abacus_surface *surface,
+										const abacus_host *other_host, const abacus_facts *other,
+										uint32_t other_attribute, size_t cache_bytes,
+										abacus_comparison *comparison, abacus_error *error);
+
 #ifdef __cplusplus
 }
 #endif

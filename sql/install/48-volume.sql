@@ -59,3 +59,24 @@ AS 'MODULE_PATHNAME', 'abacus_sql_volume_between_named'
 LANGUAGE C STABLE PARALLEL SAFE COST 1000000;
 COMMENT ON FUNCTION abacus_volume(regclass, text, text, double precision[], double precision[], double precision, text, text) IS
     'the same, with the name of the other mesh, or a base, as text';
+
+CREATE FUNCTION abacus_compare(
+    mesh regclass,
+    other regclass,
+    attribute text DEFAULT NULL,
+    lower double precision[] DEFAULT NULL,
+    upper double precision[] DEFAULT NULL,
+    max_edge double precision DEFAULT NULL,
+    other_attribute text DEFAULT NULL,
+    within text DEFAULT NULL,
+    OUT "greatest" double precision,
+    OUT x double precision,
+    OUT y double precision,
+    OUT mean double precision,
+    OUT mean_absolute double precision,
+    OUT rms double precision)
+RETURNS record
+AS 'MODULE_PATHNAME', 'abacus_sql_compare'
+LANGUAGE C STABLE PARALLEL SAFE COST 1000000;
+COMMENT ON FUNCTION abacus_compare(regclass, regclass, text, double precision[], double precision[], double precision, text, text) IS
+    'how two meshes in the plane differ where both have a surface: the values of the first less those of the other, over the overlay of their triangles. greatest is the difference with the greatest absolute value and x, y where it is; mean, mean_absolute and rms are weighted by area. All are NULL if the meshes have no part in common. within is the name of a region of the mesh, or a polygon as WKT, EWKT or hexadecimal EWKB; all else is as outside of the mesh. Shapes: lower and upper are {x, y}. Units: lower, upper, max_edge, x and y in those of the coordinates, all else in those of the attribute. Errors: 22023 a bad window, a mesh in space; 2202E other lengths; 22003 a result out of range; 42703 no such attribute, 42702 none named where the mesh has several, 55000 none at all; 42704 no such region';

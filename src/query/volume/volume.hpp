@@ -13,7 +13,7 @@
 
 #include "geometry/exact_sum.hpp"
 #include "geometry/piece.hpp"
-#include "query/volume/overlaps.hpp"
+#include "query/volume/overlay.hpp"
 
 #include <abacus/volume.h>
 
@@ -44,11 +44,9 @@ template <int D>
 abacus_volume volume_above(const Host &host, const abacus_facts &facts,
                            const abacus_surface &surface, double base);
 
-/// Between a mesh and another one, both of dimension 2; `cache_bytes` for the other's simplices.
+/// Between a mesh and another one, both of dimension 2.
 abacus_volume volume_between(const Host &host, const abacus_facts &facts,
-                             const abacus_surface &surface, const Host &other_host,
-                             const abacus_facts &other, std::uint32_t other_attribute,
-                             std::size_t cache_bytes);
+                             const abacus_surface &surface, const OtherMesh &other);
 
 extern template class Volume<2>;
 extern template class Volume<3>;

@@ -1,5 +1,6 @@
 /*
- * fn_volume.c: abacus_volume, areas and volumes over a base or between two meshes.
+ * fn_volume.c: abacus_volume, areas and volumes over a base or between two meshes, and
+ * abacus_compare, how two meshes differ.
  */
 #include "postgres.h"
 
@@ -24,6 +25,7 @@
 SQL_FUNCTION(abacus_sql_volume);
 SQL_FUNCTION(abacus_sql_volume_between);
 SQL_FUNCTION(abacus_sql_volume_between_named);
+SQL_FUNCTION(abacus_sql_compare);
 
 /* Arguments: the mesh, the base or the other mesh, then these */
 enum
@@ -46,6 +48,17 @@ enum
 	VOLUME_FILL,
 	VOLUME_NET,
 	VOLUME_COLUMNS
+};
+
+/* Columns of a comparison */
+enum
+{
+	COMPARISON_GREATEST,
+	COMPARISON_PLACE,
+	COMPARISON_MEAN = COMPARISON_PLACE + 2,
+	COMPARISON_MEAN_ABSOLUTE,
+	COMPARISON_RMS,
+	COMPARISON_COLUMNS
 };
 
 static uint32
@@ -122,42 +135,70 @@ abacus_sql_volume(PG_FUNCTION_ARGS)
 }
 
 static void
-require_plane(const Reader *reader)
+require_plane(const Reader *reader, const char *hint)
 {
 	if (reader->header.facts.form.dimension != 2)
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
 				 errmsg("mesh \"%s\" has dimension %u, not 2",
 						get_rel_name(mesh_pages(reader->host)->mesh), reader->header.facts.form.dimension),
-				 errhint("In space, give abacus_volume() a base, the value that divides one mesh.")));
+				 errhint("%s", hint)));
 }
+
+/* Two meshes, the part of the first that counts, and the attribute of the other. */
+typedef struct Between
+{
+	Reader	   *first;
+	Reader	   *second;
+	abacus_surface surface;
+	uint32		other_attribute;
+} Between;
+
+/* `hint` says what to do with meshes in space. */
+static void
+between_open(FunctionCallInfo fcinfo, Oid other, const char *hint, Between *between)
+{
+	int			other_name = PG_ARGISNULL(OF_OTHER_ATTRIBUTE) ? OF_ATTRIBUTE : OF_OTHER_ATTRIBUTE;
+
+	memset(between, 0, sizeof(*between));
+	between->first = reader_open(PG_GETARG_OID(OF_MESH), CurrentMemoryContext);
+	between->second = reader_open(other, CurrentMemoryContext);
+	require_plane(between->first, hint);
+	require_plane(between->second, hint);
+	surface_arguments(fcinfo, between->first, &between->surface);
+	between->other_attribute = attribute(fcinfo, other_name, abacus_names_of(&between->second->header));
+	progress_begin(&between->first->host->progress, PG_GETARG_OID(OF_MESH));
+}
+
+static void
+between_close(Between *between)
+{
+	progress_end(&between->first->host->progress);
+	host_release(between->first->host);
+	host_release(between->second->host);
+	host_destroy(between->first->host);
+	host_destroy(between->second->host);
+}
+
+/* A call of the core about two meshes: abacus_volume_between() or abacus_compare(). */
+#define between_run(between, function, result) \
+	host_check_both((between)->first->host, (between)->second->host, \
+					function(&(between)->first->host->table, &(between)->first->header.facts, \
+							 &(between)->surface, &(between)->second->host->table, \
+							 &(between)->second->header.facts, (between)->other_attribute, \
+							 setting_cache_bytes(), result, &(between)->first->host->failure))
 
 static Datum
 volume_between(FunctionCallInfo fcinfo, Oid other)
 {
-	abacus_surface surface = {0};
 	abacus_volume volume;
-	Reader	   *first = reader_open(PG_GETARG_OID(OF_MESH), CurrentMemoryContext);
-	Reader	   *second = reader_open(other, CurrentMemoryContext);
-	uint32		other_attribute;
-	int			other_name = PG_ARGISNULL(OF_OTHER_ATTRIBUTE) ? OF_ATTRIBUTE : OF_OTHER_ATTRIBUTE;
+	Between		between;
 
-	require_plane(first);
-	require_plane(second);
-	surface_arguments(fcinfo, first, &surface);
-	units_tell_volumes(&first->header.facts.form);
-	other_attribute = attribute(fcinfo, other_name, abacus_names_of(&second->header));
-	progress_begin(&first->host->progress, PG_GETARG_OID(OF_MESH));
-	host_check_both(first->host, second->host,
-					abacus_volume_between(&first->host->table, &first->header.facts, &surface,
-										  &second->host->table, &second->header.facts,
-										  other_attribute, setting_cache_bytes(), &volume,
-										  &first->host->failure));
-	progress_end(&first->host->progress);
-	host_release(first->host);
-	host_release(second->host);
-	host_destroy(first->host);
-	host_destroy(second->host);
+	between_open(fcinfo, other,
+				 "In space, give abacus_volume() a base, the value that divides one mesh.", &between);
+	units_tell_volumes(&between.first->header.facts.form);
+	between_run(&between, abacus_volume_between, &volume);
+	between_close(&between);
 	return volume_row(fcinfo, &volume);
 }
 
@@ -214,4 +255,44 @@ abacus_sql_volume_between_named(PG_FUNCTION_ARGS)
 	}
 	other = DirectFunctionCall1(regclassin, CStringGetDatum(given));
 	PG_RETURN_DATUM(volume_between(fcinfo, DatumGetObjectId(other)));
+}
+
+static Datum
+comparison_row(FunctionCallInfo fcinfo, const abacus_comparison *comparison)
+{
+	Datum		values[COMPARISON_COLUMNS];
+	bool		isnull[COMPARISON_COLUMNS] = {false};
+
+	if (!isfinite(comparison->greatest) || !isfinite(comparison->mean) ||
+		!isfinite(comparison->mean_absolute) || !isfinite(comparison->rms))
+		float_overflow_error();
+	values[COMPARISON_GREATEST] = Float8GetDatum(comparison->greatest);
+	for (int axis = 0; axis < 2; axis++)
+		values[COMPARISON_PLACE + axis] = Float8GetDatum(comparison->place[axis]);
+	values[COMPARISON_MEAN] = Float8GetDatum(comparison->mean);
+	values[COMPARISON_MEAN_ABSOLUTE] = Float8GetDatum(comparison->mean_absolute);
+	values[COMPARISON_RMS] = Float8GetDatum(comparison->rms);
+	if (!comparison->is_any)
+		memset(isnull, true, sizeof(isnull));
+	return HeapTupleGetDatum(heap_form_tuple(result_row_type(fcinfo), values, isnull));
+}
+
+/*
+ * abacus_compare(mesh regclass, other regclass, attribute text, lower float8[], upper float8[],
+ *                max_edge float8, other_attribute text, within text)
+ *     -> greatest, x, y, mean, mean_absolute, rms
+ */
+Datum
+abacus_sql_compare(PG_FUNCTION_ARGS)
+{
+	abacus_comparison comparison;
+	Between		between;
+
+	if (PG_ARGISNULL(OF_MESH) || PG_ARGISNULL(OF_OTHER))
+		PG_RETURN_NULL();
+	between_open(fcinfo, PG_GETARG_OID(OF_OTHER),
+				 "In space, compare values of abacus_interpolate() at places of your choice.", &between);
+	between_run(&between, abacus_compare, &comparison);
+	between_close(&between);
+	PG_RETURN_DATUM(comparison_row(fcinfo, &comparison));
 }
