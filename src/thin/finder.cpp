@@ -19,9 +19,14 @@ bool comes_first(const Piece<D> &piece, bool is_ghost, const std::uint64_t *vert
                  const std::uint64_t *other) {
     const Point<D> p = vertex_point<D>(vertex), q = vertex_point<D>(other);
     if (p == q) return false;
+    const double value = vertex_value<D>(vertex), other_value = vertex_value<D>(other);
+    const Misfit<D> misfit(piece);
+    const Magnitude a = is_ghost ? height_over<D>(facet_of(piece), p) : misfit.of(p, value);
+    const Magnitude b = is_ghost ? height_over<D>(facet_of(piece), q) : misfit.of(q, other_value);
+    if (a.least() > b.most()) return true;
+    if (a.most() < b.least()) return false;
     const int order = is_ghost ? exact::compare_heights<D>(facet_of(piece), p, q)
-                               : exact::compare_misfits<D>(piece, p, vertex_value<D>(vertex), piece,
-                                                           q, vertex_value<D>(other));
+                               : exact::compare_misfits<D>(piece, p, value, piece, q, other_value);
     return order != 0 ? order > 0 : lexicographically_less<D>(p, q);
 }
 
