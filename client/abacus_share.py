@@ -10,13 +10,15 @@ one state of the mesh if they read one snapshot, whose owner keeps it until all 
         share = snapshot.share("mesh", comm.size, comm.rank)
 """
 import dataclasses
+import subprocess
 
 import numpy
 
+from abacus_files import copy_rows
 from abacus_files.psql import Failed, literal
 from abacus_files.session import TYPES, Session
 
-__all__ = ["Failed", "Share", "Snapshot", "read"]
+__all__ = ["Failed", "Share", "Snapshot", "read", "store"]
 
 
 @dataclasses.dataclass
@@ -102,3 +104,24 @@ def read(mesh, parts, part, halo=1, weight=None, database=None):
     """The share of one part, as the mesh is now."""
     with Snapshot(database) as snapshot:
         return snapshot.share(mesh, parts, part, halo, weight)
+
+
+def store(share, step, values, database=None):
+    """Stores values of the part's own vertices, a row or a number for each in the order of their local numbers; NaN becomes NULL. What the part has
+    stored at this step before is replaced."""
+    values = numpy.asarray(values, float).reshape(share.own, -1)
+    names = [f"value_{n}" for n in range(values.shape[1])]
+    row = numpy.dtype([("count", ">i2"), ("l", ">i4"), ("id", ">i8"), *[field for name in names for field in ((f"l_{name}", ">i4"), (name, ">f8"))]])
+    rows = numpy.empty(share.own, row)
+    rows["count"], rows["l"], rows["id"] = 1 + len(names), 8, share.id[:share.own]
+    for n, name in enumerate(names):
+        rows[f"l_{name}"], rows[name] = 8, values[:, n]
+    columns = ", ".join(["id int8", *[f"{name} float8" for name in names]])
+    arguments = f"{literal(share.mesh)}::regclass, {int(step)}, {share.parts}, {share.part}, 'TABLE pg_temp.abacus_values'"
+    weight = "" if share.weight is None else f", {literal(share.weight)}"
+    command = ["psql", "-X", "-q", "-v", "ON_ERROR_STOP=1", *(["-d", database] if database else []), "--single-transaction",
+               "-c", f"CREATE TEMP TABLE abacus_values ({columns}) ON COMMIT DROP", "-c", "COPY pg_temp.abacus_values FROM STDIN (FORMAT binary)",
+               "-c", f"SELECT abacus_store({arguments}{weight})"]
+    done = subprocess.run(command, input=copy_rows.SIGNATURE + rows.tobytes() + copy_rows.END, capture_output=True, check=False)
+    if done.returncode != 0:
+        raise Failed(done.stderr.decode(errors="replace").strip())

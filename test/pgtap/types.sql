@@ -9,6 +9,7 @@ SELECT has_type('abacus_vertex_page');
 SELECT has_type('abacus_line_point');
 SELECT has_type('abacus_region_part');
 SELECT has_type('abacus_thinning');
+SELECT has_type('abacus_step_values');
 SELECT is(typstorage::text || typalign::text, 'pd', 'pages are plain and aligned to doubles')
 FROM pg_type WHERE typname = 'abacus_page';
 SELECT has_cast('bytea', 'abacus_page');
@@ -128,6 +129,8 @@ INSERT INTO wanted VALUES
     ('abacus_partition', 'mesh regclass, parts integer, weight text DEFAULT NULL::text, OUT part integer, OUT vertices bigint, OUT simplices bigint, OUT cut_facets bigint, OUT halo bigint', 'SETOF record', 's', false, 's'),
     ('abacus_share_vertices', 'mesh regclass, parts integer, part integer, halo integer DEFAULT 1, weight text DEFAULT NULL::text, OUT local bigint, OUT id bigint, OUT owner integer, OUT x double precision, OUT y double precision, OUT z double precision, OUT attributes double precision[]', 'SETOF record', 's', false, 's'),
     ('abacus_share_simplices', 'mesh regclass, parts integer, part integer, halo integer DEFAULT 1, weight text DEFAULT NULL::text, OUT code bigint, OUT v0 bigint, OUT v1 bigint, OUT v2 bigint, OUT v3 bigint, OUT owner integer, OUT labels double precision[], OUT markers double precision[]', 'SETOF record', 's', false, 's'),
+    ('abacus_store', 'mesh regclass, step bigint, parts integer, part integer, query text, weight text DEFAULT NULL::text', 'bigint', 'v', false, 'u'),
+    ('abacus_steps', 'mesh regclass, OUT step bigint, OUT parts integer, OUT stored integer, OUT vertices bigint, OUT whole boolean', 'SETOF record', 's', true, 's'),
     ('abacus_interpolate', 'mesh regclass, x double precision, y double precision, attribute text DEFAULT NULL::text, method text DEFAULT ''linear''::text, outside text DEFAULT ''null''::text, max_edge double precision DEFAULT NULL::double precision, within text DEFAULT NULL::text', 'double precision', 's', false, 's'),
     ('abacus_interpolate', 'mesh regclass, x double precision, y double precision, z double precision, attribute text DEFAULT NULL::text, method text DEFAULT ''linear''::text, outside text DEFAULT ''null''::text, max_edge double precision DEFAULT NULL::double precision, within text DEFAULT NULL::text', 'double precision', 's', false, 's'),
     ('abacus_interpolate', 'mesh regclass, query text, attributes text[] DEFAULT NULL::text[], method text DEFAULT ''linear''::text, outside text DEFAULT ''null''::text, max_edge double precision DEFAULT NULL::double precision, within text DEFAULT NULL::text, OUT id bigint, OUT "values" double precision[]', 'SETOF record', 'v', false, 'u'),

@@ -40,6 +40,11 @@ static const RowOrigin query_of_lines = {
 	NULL, "Leave such rows out with a WHERE clause.", false,
 	"mesh", "line", "A line or an id", NULL, true, false, false
 };
+static const RowOrigin query_of_values = {
+	"the source query", "the source query", "Cast the column in the query.",
+	NULL, "Leave such rows out with a WHERE clause.", true,
+	"step", "id", "An id", NULL, false, false, false
+};
 static const RowOrigin tracked_table = {
 	"the tracked table", "the statement", "Track other columns, generated ones for instance.",
 	"Track generated columns", "Set a coordinate to NULL in rows without a point.", false,
@@ -370,6 +375,20 @@ RowPacker *
 row_packer_create_loaded_lines(TupleDesc desc, abacus_names names, size_t batch)
 {
 	return create(desc, names, &query_of_lines, 3, 0, 0, false, false, batch);
+}
+
+/* The same for rows of a query that are values of vertices: an id, and as many as there are columns. */
+RowPacker *
+row_packer_create_values(TupleDesc desc, size_t batch)
+{
+	abacus_facts *facts = palloc0(sizeof(abacus_facts));
+	char		(*names)[ABACUS_NAME_BYTES] = palloc0(Max(desc->natts, 1) * sizeof(*names));
+
+	facts->columns.attributes = (uint32) Max(desc->natts - 1, 0);
+	for (int i = 1; i < desc->natts; i++)
+		strlcpy(names[i - 1], NameStr(TupleDescAttr(desc, i)->attname), ABACUS_NAME_BYTES);
+	return create(desc, (abacus_names) {facts, names}, &query_of_values, 1, 0,
+				  (int) facts->columns.attributes, false, false, batch);
 }
 
 /* The same for rows of a query for an octree; `takes_srid` as above. */

@@ -90,6 +90,7 @@ extern RowPacker *row_packer_create_loaded_facets(TupleDesc desc, abacus_names n
 												  size_t batch);
 extern RowPacker *row_packer_create_loaded_lines(TupleDesc desc, abacus_names names,
 												 size_t batch);
+extern RowPacker *row_packer_create_values(TupleDesc desc, size_t batch);
 extern RowPacker *row_packer_create_octants(TupleDesc desc, abacus_names names,
 											OctantRows rows, bool takes_srid, size_t batch);
 extern void row_packer_reset(RowPacker *packer);

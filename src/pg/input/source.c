@@ -222,6 +222,14 @@ source_open_loaded_lines(Source *source, abacus_names names)
 	source->packer = row_packer_create_loaded_lines(source->portal->tupDesc, names, ROWS_A_BATCH);
 }
 
+/* Starts reading values of vertices, by their ids. */
+void
+source_open_values(Source *source)
+{
+	source->portal = SPI_cursor_open(NULL, source->plan, NULL, NULL, true);
+	source->packer = row_packer_create_values(source->portal->tupDesc, ROWS_A_BATCH);
+}
+
 /* Starts reading rows for an octree; see row_packer_create_octants(). */
 void
 source_open_octants(Source *source, abacus_names names, OctantRows rows, bool takes_srid)

@@ -1,7 +1,8 @@
 /*
  * source.h: the user's query that yields points (id, x, y[, z][, attribute...]) or (id, geometry[,
  * attribute...]), or simplices (v0, v1, v2[, v3][, label...]), or (code, v0, v1, v2[, v3],
- * label...), or their facets (code, v0, v1, v2[, v3], facet, marker), or edges of lines (line, v0, v1).
+ * label...), or their facets (code, v0, v1, v2[, v3], facet, marker), or edges of lines (line, v0, v1),
+ * or values of vertices (id, value...).
  */
 #ifndef ABACUS_SOURCE_H
 #define ABACUS_SOURCE_H
@@ -29,6 +30,7 @@ extern void source_open_labels(Source *source, abacus_names names);
 extern void source_open_facets(Source *source, abacus_names names);
 extern void source_open_loaded_facets(Source *source, abacus_names names);
 extern void source_open_loaded_lines(Source *source, abacus_names names);
+extern void source_open_values(Source *source);
 extern void source_open_octants(Source *source, abacus_names names, OctantRows rows,
 								bool takes_srid);
 extern size_t source_fetch(Source *source, const uint64 **points);

@@ -9,7 +9,9 @@
  *
  * A mesh that has had lines has a third table, of the type abacus_line_point, which is bound and found
  * in the same way. Its name ends in _lines. One that has had regions has a fourth, of the type
- * abacus_region_part, whose name ends in _regions; one made by thinning, one of the type abacus_thinning.
+ * abacus_region_part, whose name ends in _regions; one made by thinning, one of the type
+ * abacus_thinning, whose name ends in _thinning. One into which steps of a solution have been stored has
+ * a partitioned table of the type abacus_step_values, whose name ends in _steps.
  */
 #include "postgres.h"
 
@@ -80,7 +82,7 @@ static void (*on_restored) (Relation mesh) = NULL;
 static Oid	simplex_row_type = InvalidOid;
 
 static bool
-is_table_of(Oid relid, const char *name, Oid *known)
+is_relation_of(Oid relid, char kind, const char *name, Oid *known)
 {
 	HeapTuple	tuple = SearchSysCache1(RELOID, ObjectIdGetDatum(relid));
 	Form_pg_class form;
@@ -89,7 +91,7 @@ is_table_of(Oid relid, const char *name, Oid *known)
 	if (!HeapTupleIsValid(tuple))
 		return false;
 	form = (Form_pg_class) GETSTRUCT(tuple);
-	is = form->relkind == RELKIND_RELATION && is_row_type(form->reloftype, name, known);
+	is = form->relkind == kind && is_row_type(form->reloftype, name, known);
 	ReleaseSysCache(tuple);
 	return is;
 }
@@ -97,19 +99,20 @@ is_table_of(Oid relid, const char *name, Oid *known)
 static bool
 is_simplex_table(Oid relid)
 {
-	return is_table_of(relid, SIMPLEX_PAGE_TYPE, &simplex_row_type);
+	return is_relation_of(relid, RELKIND_RELATION, SIMPLEX_PAGE_TYPE, &simplex_row_type);
 }
 
-/* Defines a function that says whether a table is one of this type. */
-#define TABLE_TEST(name, type) \
+/* Defines a function that says whether a relation is of this kind and type. */
+#define TABLE_TEST(name, kind, type) \
 	static bool name(Oid relid) \
 	{ \
-		static Oid	known = InvalidOid; return is_table_of(relid, type, &known); \
+		static Oid	known = InvalidOid; return is_relation_of(relid, kind, type, &known); \
 	}
-TABLE_TEST(is_vertex_table, VERTEX_PAGE_TYPE)
-TABLE_TEST(is_lines_table, LINE_POINT_TYPE)
-TABLE_TEST(is_regions_table, REGION_PART_TYPE)
-TABLE_TEST(is_thinning_table, THINNING_TYPE)
+TABLE_TEST(is_vertex_table, RELKIND_RELATION, VERTEX_PAGE_TYPE)
+TABLE_TEST(is_lines_table, RELKIND_RELATION, LINE_POINT_TYPE)
+TABLE_TEST(is_regions_table, RELKIND_RELATION, REGION_PART_TYPE)
+TABLE_TEST(is_thinning_table, RELKIND_RELATION, THINNING_TYPE)
+TABLE_TEST(is_steps_table, RELKIND_PARTITIONED_TABLE, STEP_VALUES_TYPE)
 
 /* Opens the table of a mesh under the given lock, or says why it cannot be used. */
 static Relation
@@ -203,6 +206,7 @@ static const SideTable vertex_side = {VERTEX_TABLE_SUFFIX, is_vertex_table, "ver
 static const SideTable lines_side = {LINES_TABLE_SUFFIX, is_lines_table, "table of lines"};
 static const SideTable regions_side = {REGIONS_TABLE_SUFFIX, is_regions_table, "table of regions"};
 static const SideTable thinning_side = {THINNING_TABLE_SUFFIX, is_thinning_table, "table of its thinning"};
+static const SideTable steps_side = {STEPS_TABLE_SUFFIX, is_steps_table, "table of steps"};
 
 /* Such a table of a mesh, found by its name alone; InvalidOid if there is none. */
 static Oid
@@ -268,52 +272,6 @@ mesh_of_table(Oid relid)
 	return is_simplex_table(mesh) && mesh_find_vertex_table(mesh) == relid ? mesh : InvalidOid;
 }
 
-static bool
-try_lock_for_session(Oid relid, LOCKMODE mode, LockRelId *lock)
-{
-	LOCKTAG		tag;
-
-	lock->relId = relid;
-	lock->dbId = MyDatabaseId;
-	SET_LOCKTAG_RELATION(tag, lock->dbId, lock->relId);
-	return LockAcquire(&tag, mode, true, true) != LOCKACQUIRE_NOT_AVAIL;
-}
-
-/*
- * Does the same as mesh_lock_for_session() if no one has the mesh locked for more than reading;
- * otherwise returns false. The lock is EXCLUSIVE, so that no one holds a row lock for which a
- * writer would wait. The vertex table is locked as a writer does, or in EXCLUSIVE mode too if its
- * rows will be written. The caller unlocks; an error unlocks by itself.
- */
-bool
-mesh_try_lock_for_session(Oid relid, bool vertices, MeshLocks *locks)
-{
-	Oid			vertex_table = mesh_find_vertex_table(relid);
-
-	locks->vertices_mode = vertices ? ExclusiveLock : RowExclusiveLock;
-	if (!OidIsValid(vertex_table) ||
-		!try_lock_for_session(relid, ExclusiveLock, &locks->simplices))
-		return false;
-	if (!try_lock_for_session(vertex_table, locks->vertices_mode, &locks->vertices))
-	{
-		UnlockRelationIdForSession(&locks->simplices, ExclusiveLock);
-		return false;
-	}
-	/* the tables may have been dropped or renamed meanwhile */
-	AcceptInvalidationMessages();
-	if (mesh_of_table(relid) == relid && mesh_find_vertex_table(relid) == vertex_table)
-		return true;
-	mesh_unlock_for_session(locks);
-	return false;
-}
-
-void
-mesh_unlock_for_session(MeshLocks *locks)
-{
-	UnlockRelationIdForSession(&locks->vertices, locks->vertices_mode);
-	UnlockRelationIdForSession(&locks->simplices, ExclusiveLock);
-}
-
 /* Opens such a table of the mesh under the lock that the access needs; NULL if there is none. */
 static Relation
 open_side_table(Relation mesh, const SideTable *side, MeshAccess access, bool *bound)
@@ -376,6 +334,13 @@ mesh_thinning_table(Relation mesh, MeshAccess access)
 	return row_table(mesh, &thinning_side, access);
 }
 
+/* The same for the table of steps of solutions. */
+Oid
+mesh_steps_table(Relation mesh, MeshAccess access)
+{
+	return row_table(mesh, &steps_side, access);
+}
+
 /* The same for the table of its vertex pages, which must be there. */
 Oid
 mesh_vertex_table(Relation mesh, MeshAccess access)
@@ -400,6 +365,7 @@ mesh_vertex_table(Relation mesh, MeshAccess access)
 		(void) mesh_lines_table(mesh, access);
 		(void) mesh_regions_table(mesh, access);
 		(void) mesh_thinning_table(mesh, access);
+		(void) mesh_steps_table(mesh, access);
 		if (on_restored != NULL)
 			on_restored(mesh);
 	}

@@ -20,6 +20,9 @@
 #define THINNING_TYPE "abacus_thinning"
 #define THINNING_COLUMNS 7
 #define THINNING_TABLE_SUFFIX "_thinning"
+#define STEP_VALUES_TYPE "abacus_step_values"
+#define STEP_VALUES_COLUMNS 4
+#define STEPS_TABLE_SUFFIX "_steps"
 
 /* What a caller intends to do, which decides the lock and the privileges it needs. */
 typedef enum MeshAccess
@@ -51,6 +54,7 @@ extern void mesh_bind_table(Oid mesh, Oid table);
 extern Oid	mesh_lines_table(Relation mesh, MeshAccess access);
 extern Oid	mesh_regions_table(Relation mesh, MeshAccess access);
 extern Oid	mesh_thinning_table(Relation mesh, MeshAccess access);
+extern Oid	mesh_steps_table(Relation mesh, MeshAccess access);
 extern Oid	mesh_of_trigger(Oid trigger);
 extern void mesh_bind_trigger(Oid mesh, Oid trigger);
 extern void mesh_tell_of_restored(void (*tell) (Relation mesh));

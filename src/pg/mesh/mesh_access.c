@@ -1,5 +1,6 @@
 /*
- * mesh_access.c: who may use a table of a mesh, and whether it can be used.
+ * mesh_access.c: who may use a table of a mesh, whether it can be used, and whether a session gets it for
+ * itself.
  *
  * The store reads and writes pages without planner and executor. So it has to check here what these
  * would check: privileges, row-level security, temporary tables of other sessions, unlogged tables
@@ -14,7 +15,9 @@
 #include "executor/executor.h"
 #include "lib/stringinfo.h"
 #include "miscadmin.h"
+#include "storage/lmgr.h"
 #include "utils/acl.h"
+#include "utils/inval.h"
 #include "utils/rls.h"
 
 #include "pg/mesh/mesh_access.h"
@@ -156,4 +159,52 @@ mesh_check_rows_access(Relation rel, MeshAccess access, Relation mesh, const cha
 		ereport(ERROR,
 				(errcode(ERRCODE_FEATURE_NOT_SUPPORTED),
 				 errmsg("cannot access temporary meshes of other sessions")));
+}
+
+/* ---- Locks of a session ----------------------------------------------------------------- */
+
+static bool
+try_lock_for_session(Oid relid, LOCKMODE mode, LockRelId *lock)
+{
+	LOCKTAG		tag;
+
+	lock->relId = relid;
+	lock->dbId = MyDatabaseId;
+	SET_LOCKTAG_RELATION(tag, lock->dbId, lock->relId);
+	return LockAcquire(&tag, mode, true, true) != LOCKACQUIRE_NOT_AVAIL;
+}
+
+/*
+ * Does the same as mesh_lock_for_session() if no one has the mesh locked for more than reading;
+ * otherwise returns false. The lock is EXCLUSIVE, so that no one holds a row lock for which a
+ * writer would wait. The vertex table is locked as a writer does, or in EXCLUSIVE mode too if its
+ * rows will be written. The caller unlocks; an error unlocks by itself.
+ */
+bool
+mesh_try_lock_for_session(Oid relid, bool vertices, MeshLocks *locks)
+{
+	Oid			vertex_table = mesh_find_vertex_table(relid);
+
+	locks->vertices_mode = vertices ? ExclusiveLock : RowExclusiveLock;
+	if (!OidIsValid(vertex_table) ||
+		!try_lock_for_session(relid, ExclusiveLock, &locks->simplices))
+		return false;
+	if (!try_lock_for_session(vertex_table, locks->vertices_mode, &locks->vertices))
+	{
+		UnlockRelationIdForSession(&locks->simplices, ExclusiveLock);
+		return false;
+	}
+	/* the tables may have been dropped or renamed meanwhile */
+	AcceptInvalidationMessages();
+	if (mesh_of_table(relid) == relid && mesh_find_vertex_table(relid) == vertex_table)
+		return true;
+	mesh_unlock_for_session(locks);
+	return false;
+}
+
+void
+mesh_unlock_for_session(MeshLocks *locks)
+{
+	UnlockRelationIdForSession(&locks->vertices, locks->vertices_mode);
+	UnlockRelationIdForSession(&locks->simplices, ExclusiveLock);
 }

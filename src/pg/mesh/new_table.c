@@ -1,7 +1,7 @@
 /*
  * new_table.c: protects a table while a CREATE TABLE of ours makes it. Others may drop its schema
  * before, drop the table after (by an event trigger), or make another one with that name.
- * Tables of lines and regions belong to the owner of their mesh, and are bound to it.
+ * Tables of lines, regions and steps belong to the owner of their mesh, and are bound to it.
  */
 #include "postgres.h"
 
@@ -175,11 +175,12 @@ side_table_make(Relation mesh, const NewSideTable *made)
 
 	check_may_make(mesh, made, name);
 	side_table_create(mesh,
-					  psprintf("CREATE %sTABLE %s OF %s (%s) USING heap",
+					  psprintf("CREATE %sTABLE %s OF %s (%s) %s",
 							   mesh->rd_rel->relpersistence == RELPERSISTENCE_UNLOGGED ? "UNLOGGED " : "",
 							   quote_qualified_identifier(get_namespace_name(schema), name),
 							   quote_qualified_identifier(get_namespace_name(type_schema), made->type),
-							   made->options),
+							   made->options,
+							   made->partitioning != NULL ? made->partitioning : "USING heap"),
 					  name);
 	table = new_table_id(schema, name);
 	new_table_describe(table, psprintf("%s of a mesh: see %s", made->contents, made->reader),

@@ -12,6 +12,7 @@ typedef struct NewSideTable
 	const char *type;			/* of its rows */
 	int			columns;
 	const char *options;		/* of its columns, and its primary key, in SQL */
+	const char *partitioning;	/* in SQL, or NULL */
 	const char *contents;		/* what is in it, for messages */
 	const char *maker;			/* the function that makes it */
 	const char *reader;			/* the function that shows what is in it */
