@@ -47,6 +47,7 @@ SELECT abacus_constrain('fenced', 'VALUES (7, 1, 0), (7, 2, 99), (7, 3, 90)', ki
 SELECT abacus_constrain('fenced', 'VALUES (8, 1, 1), (8, 2, 4), (8, 3, 24), (8, 4, 1)');
 SELECT abacus_region('fenced', $$VALUES ('corner', 8)$$);
 SELECT abacus_publish('fenced', geometry => false);
+SELECT abacus_thin('field', 'thinned', 900, keep => 'border');
 GRANT USAGE ON SCHEMA abacus TO owner;
 SET ROLE owner;
 SELECT abacus_triangulate('s."My Mesh"', 'SELECT i, (i * 7919) % 101, (i * 104729) % 97, (i * 31) % 89 FROM generate_series(1, 3000) AS i', dimension => 3);
@@ -86,6 +87,11 @@ my $regions = regions_of_mesh('origin');
 like($regions, qr/^corner\|1\|\d+\|3\|/, 'with a region');
 my $lines = lines_of_mesh('origin');
 like($lines, qr/^7\|1\|0\|0\|0\|soft\|\n7\|2\|99\|9\|9\|soft\|\n/, 'a mesh with lines');
+
+# How a mesh was thinned.
+sub thinning_of_mesh { return $node->safe_psql($_[0], q{SELECT * FROM thinned_thinning; SELECT count(*), sum(id) FROM abacus_vertices('thinned')}); }
+my $thinning = thinning_of_mesh('origin');
+like($thinning, qr/^public\.field\|-?\d+\|height\|900\|border\|\|[\d.]+\n/, 'a thinned mesh');
 
 sub vertex_table { return $_[0] =~ s/("?)$/_vertices$1/r; }
 
@@ -152,6 +158,9 @@ sub examine
 	is(views_of_lines($database), $lines, "$what: and as views");
 	is(regions_of_mesh($database), $regions, "$what: its region");
 	is_sound($node, $database, 'fenced', "$what: a mesh with lines");
+	is(thinning_of_mesh($database), $thinning, "$what: a thinned mesh");
+	$node->safe_psql($database, q{SELECT abacus_insert('thinned', 'VALUES (-1, 0.5, 0.5, 1)')});
+	is($node->safe_psql($database, q{DROP TABLE thinned; SELECT to_regclass('thinned_thinning')}), '', "$what: which binds the table of its thinning");
 	is($node->safe_psql($database, q{SELECT abacus_insert('fenced', 'VALUES (100, 5, 5)')}), 1, "$what: it grows");
 	is($node->safe_psql($database, "SELECT count(*) FROM pg_depend WHERE objid = 'fenced_lines'::regclass AND refobjid = 'fenced'::regclass"), 1, "$what: which binds the table of lines");
 	is($node->safe_psql($database, "SELECT count(*) FROM pg_depend WHERE objid = 'fenced_regions'::regclass AND refobjid = 'fenced'::regclass"), 1, "$what: and that of regions");
