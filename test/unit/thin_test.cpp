@@ -35,7 +35,7 @@ template <int D> bool is_flat(const Piece<D> &piece) {
     return orientation<D>(corners) == 0;
 }
 
-/// What is decided in doubles is what rational numbers decide, also where the bound is hit exactly.
+/// Doubles decide as rational numbers do, also where the bound is hit exactly.
 template <int D> void expect_exact_decisions() {
     Random random(D);
     std::uniform_real_distribution<double> unit(0, 1);
@@ -68,7 +68,7 @@ template <int D> void expect_exact_decisions() {
 TEST(ThinTest, DecisionsAreExactInThePlane) { expect_exact_decisions<2>(); }
 TEST(ThinTest, DecisionsAreExactInSpace) { expect_exact_decisions<3>(); }
 
-/// A cell in a box that was added is there, and a box meets what is in it.
+/// The cells of a box contain those of its points, and a box meets the cell of a point in it.
 template <int D> void expect_no_cell_missed() {
     Random random(D);
     std::uniform_real_distribution<double> unit(-0.2, 1.2);
