@@ -18,6 +18,7 @@ from rows import Rows
 from shared_reading import SharedLoading, SharedReading
 from surfaces import Surfaces
 from terrain import Terrain
+from thinning import Thin
 
 
 def contests(*contests):
@@ -88,6 +89,8 @@ PARTS = [
          "smoke": (5000, 2000, 20000, 1000)}).measure),
     Part("raster", "a raster of 4096² pixels, beside gdal_grid's", 12, Raster(
         {"full": (1000000, 4096), "quick": (100000, 512), "smoke": (5000, 64)}).measure),
+    Part("thin", "a raster of 4096² heights thinned, beside delatin", 12, Thin(
+        {"full": 4096, "quick": 512, "smoke": 64}).measure),
     Part("carried", "windows of a foreign table, tiles of web maps, facets with markers, files", 5, Carried(
         {"full": (1000000, 800000), "quick": (100000, 50000), "smoke": (5000, 500)}, FEWER).measure),
     Part("octree", "octrees of points: made, balanced, extracted, asked, beside p4est", 8, Octrees(
