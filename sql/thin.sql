@@ -61,6 +61,7 @@ SELECT abacus_constrain('thin_mesh', 'VALUES (1, 1, 3030), (1, 2, 3040)');
 SELECT abacus_thin('thin_mesh', 'thin_new', 0.25, 'height');
 SELECT abacus_triangulate('thin_mesh') > 7200;
 SELECT abacus_thin('thin_mesh', 'thin_new', 0.25, 'height');
+CALL abacus_thin_build('thin_mesh', 'thin_new', 0.25, 'height');
 
 -- space
 SELECT abacus_triangulate('thin_solid', $$
@@ -72,6 +73,13 @@ SELECT * FROM abacus_check('thin_new');
 SELECT max(abs(v.attributes[1] - "values"[1])) <= 0.05 AS is_within, count("values"[1])
 FROM abacus_vertices('thin_solid') AS v JOIN abacus_interpolate('thin_new', $$SELECT id, x, y, z FROM abacus_vertices('thin_solid')$$) USING (id);
 DROP TABLE thin_new;
+
+-- attributes in pages of their own
+SELECT abacus_triangulate('thin_apart', 'SELECT 10 * x + y, x, y, ' || (SELECT string_agg(format('x * y %% %s AS a%s', i, i), ', ') FROM generate_series(2, 40) AS i)
+                          || ' FROM generate_series(0, 9) AS x, generate_series(0, 9) AS y');
+SELECT abacus_thin('thin_apart', 'thin_new', 2, 'a30') <= 2 AS is_within;
+SELECT count(*) < 100 AS is_thin, count(v.id) = count(w.id) AS same FROM abacus_vertices('thin_new') AS v LEFT JOIN abacus_vertices('thin_apart') AS w USING (id, attributes);
+DROP TABLE thin_new, thin_apart;
 
 -- errors leave no table
 SELECT abacus_thin(NULL, 'thin_new', 1);
@@ -100,5 +108,7 @@ SELECT abacus_thin('thin_line', 'thin_new', 1);
 BEGIN;
 CALL abacus_thin_build('thin_solid', 'thin_new', 1);
 ROLLBACK;
+CALL abacus_thin_build('thin_line', 'thin_new', 1);
+CALL abacus_thin_build('thin_solid', 'thin_new', 1, keep => 'SELECT 1.5');
 SELECT count(*) FROM pg_class WHERE relname LIKE 'thin_new%';
 DROP TABLE thin_ground, thin_mesh, thin_solid, thin_plain, thin_empty, thin_line;

@@ -199,11 +199,11 @@ thin(Thinning *thinning, Oid extension_namespace)
 	double		greatest;
 	uint64		without_value;
 
+	/* what may find bad input comes first: after an error there is no mesh */
+	thinner->holds = true;
 	thinner_begin(thinner);
 	if (thinner->writer.header->facts.census.vertices == 0)
 		thinner_step(thinner, ABACUS_THIN_START);
-	while (thinner_step(thinner, ABACUS_THIN_HULL) > 0)
-		;
 	kept_insert(thinner, &thinning->kept);
 	if (thinning->kept.lines && thinner->writer.header->facts.census.lines == 0)
 	{
@@ -211,6 +211,9 @@ thin(Thinning *thinning, Oid extension_namespace)
 		kept_constrain(thinner, extension_namespace);
 		thinner_begin(thinner);
 	}
+	thinner->holds = false;
+	while (thinner_step(thinner, ABACUS_THIN_HULL) > 0)
+		;
 	while (thinner_step(thinner, ABACUS_THIN_WORST) > 0)
 		;
 	greatest = thinner_greatest(thinner, &without_value);

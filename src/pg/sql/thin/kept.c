@@ -129,7 +129,6 @@ static void
 insert_ids(Thinner *thinner, const char *query)
 {
 	Host	   *host = thinner->writer.host;
-	bool		commits = thinner->commits;
 	size_t		room = setting_sort_bytes() / IDS_SHARE / sizeof(int64);
 	int64	   *ids = MemoryContextAllocHuge(host->home, room * sizeof(int64));
 	size_t		count;
@@ -140,14 +139,12 @@ insert_ids(Thinner *thinner, const char *query)
 	source_prepare(&source, query);
 	portal = SPI_cursor_open(NULL, source.plan, NULL, NULL, true);
 	check_ids(&source, portal->tupDesc);
-	thinner->commits = false;	/* the cursor is open */
 	while ((count = fetch_ids(portal, ids, room)) > 0)
 	{
 		host_run(host, abacus_thin_keep, thinner->thinning, ids, count);
 		thinner_step(thinner, ABACUS_THIN_KEEP);
 		unknown += abacus_thin_unknown_ids(thinner->thinning);
 	}
-	thinner->commits = commits;
 	SPI_cursor_close(portal);
 	source_finish(&source);
 	pfree(ids);
@@ -192,6 +189,4 @@ kept_constrain(const Thinner *thinner, Oid extension_namespace)
 	}
 	SPI_finish();
 	plain_names_end(level);
-	if (thinner->commits)
-		SPI_commit();
 }

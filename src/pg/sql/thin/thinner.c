@@ -34,7 +34,9 @@ thinner_source(const Thinner *thinner)
 		ereport(ERROR,
 				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
 				 errmsg("mesh \"%s\" has changed since its thinning began", get_rel_name(thinner->source)),
-				 errhint("Drop mesh \"%s\", and thin anew.", get_rel_name(thinner->mesh))));
+				 thinner->commits
+				 ? errhint("Drop mesh \"%s\", and thin anew.", get_rel_name(thinner->mesh))
+				 : errhint("Call %s again.", thinner->command)));
 	return source;
 }
 
@@ -115,7 +117,7 @@ thinner_step(Thinner *thinner, abacus_thin_step step)
 	if (added > 0)
 		insert_stage(thinner);
 	host_run(host, abacus_thin_inserted, thinner->thinning, facts);
-	if (added > 0 && thinner->commits)
+	if (added > 0 && thinner->commits && !thinner->holds)
 		commit(thinner);
 	return added;
 }
@@ -141,6 +143,4 @@ void
 thinner_end(Thinner *thinner)
 {
 	writer_end(&thinner->writer);
-	if (thinner->commits)
-		SPI_commit();
 }

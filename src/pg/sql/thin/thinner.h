@@ -14,7 +14,8 @@ typedef struct Thinner
 	Oid			mesh;			/* that grows */
 	uint64		stamp;			/* of the source */
 	const char *command;
-	bool		commits;		/* after each step */
+	bool		commits;		/* after each step, unless ... */
+	bool		holds;			/* ... the steps so far are to be one change */
 	abacus_thin_options options;
 	Writer		writer;
 	/* closed with the writer's host: */
