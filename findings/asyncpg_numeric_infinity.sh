@@ -3,7 +3,8 @@
 #
 # Version     asyncpg 0.27.0 (Debian 12: python3-asyncpg 0.27.0-1+b2), PostgreSQL 15
 # Behaviour   numeric has Infinity and -Infinity since PostgreSQL 14. They become Decimal('0E-32'), in columns
-#             and in arrays, without a warning. NaN is right, and so is Infinity in float8. psycopg2 2.9.5 gives Decimal('Infinity').
+#             and in arrays, without a warning. NaN is right, and so is Infinity in float8. psycopg2
+#             2.9.5 gives Decimal('Infinity').
 # Output      [Decimal('1.10'), Decimal('NaN'), Decimal('0E-32'), Decimal('0E-32')]
 # Expected    Decimal('Infinity') and Decimal('-Infinity'), or an error.
 # Way out     Cast to float8 or text in SQL.

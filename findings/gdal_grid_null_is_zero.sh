@@ -26,7 +26,7 @@ printf '{"type": "FeatureCollection", "features": [%s, %s, %s, %s, %s]}\n' "$(fe
 # The values of a grid of 4 x 4 cells, from the north-west, whole metres; a fifth point has no value.
 grid() {
     "$tmp/usr/bin/gdal_grid" -q -zfield z -txe 0 4 -tye 0 4 -outsize 4 4 -ot Float64 "$@" \
-        "$tmp/points.geojson" "$tmp/grid.tif" 2>"$tmp/warnings"
+        "$tmp/points.geojson" "$tmp/grid.tif" 2>"$tmp/warnings" || echo "exit status $?"
     "$tmp/usr/bin/gdal_translate" -q -of XYZ "$tmp/grid.tif" /vsistdout/ | awk '{ printf "%.0f%s", $3, NR % 4 ? " " : NR < 16 ? " | " : "\n" }'
 }
 

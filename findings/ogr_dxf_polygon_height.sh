@@ -26,7 +26,7 @@ GEOJSON
 
 # The geometries of the DXF that ogr2ogr writes with these arguments.
 written() {
-    "$tmp/usr/bin/ogr2ogr" -f DXF "$@" "$tmp/terrain.dxf" "$tmp/terrain.geojson" 2>"$tmp/warnings"
+    "$tmp/usr/bin/ogr2ogr" -f DXF "$@" "$tmp/terrain.dxf" "$tmp/terrain.geojson" 2>"$tmp/warnings" || echo "exit status $?"
     "$tmp/usr/bin/ogrinfo" -q -al "$tmp/terrain.dxf" | sed -n 's:^ *\([A-Z]* Z (.*\):\1:p'
 }
 

@@ -21,7 +21,7 @@ expect "type of the layer" "Geometry: Unknown (any)" "$("$tmp/usr/bin/ogrinfo" -
 # The point that is read from a file of this driver and suffix, written with these arguments.
 again() {
     rm -f "$tmp/copy.$2"
-    "$tmp/usr/bin/ogr2ogr" -f "$1" "$tmp/copy.$2" "$tmp/points.csv" "${@:3}" 2>"$tmp/warnings"
+    "$tmp/usr/bin/ogr2ogr" -f "$1" "$tmp/copy.$2" "$tmp/points.csv" "${@:3}" 2>"$tmp/warnings" || echo "exit status $?"
     "$tmp/usr/bin/ogrinfo" -q -al "$tmp/copy.$2" 2>>"$tmp/warnings" | sed -n 's:^ *\(POINT.*\):\1:p'
 }
 

@@ -2,10 +2,9 @@
 # ogr2ogr writes numbers to PostgreSQL with 15 digits, so most doubles change.
 #
 # Version     GDAL 3.6.2 (Debian 12: gdal-bin 3.6.2+dfsg-1+b2), PostgreSQL 15
-# Behaviour   A double needs up to 17 digits. A table of 1,000 doubles is copied by ogr2ogr to another table of the same
-#             database: 908 are another number there, with COPY and with INSERT, without a warning. Of the
-#             same numbers in float8[], 606 are. ogr2ogr reads all of them exactly, and writes them exactly to a
-#             GeoPackage.
+# Behaviour   A double needs up to 17 digits. ogr2ogr copies a table of 1,000 doubles to another table of the
+#             same database: 908 are another number there, with COPY and with INSERT, without a warning. 606 of
+#             1,000 arrays differ too. ogr2ogr reads the numbers exactly, and writes them exactly to a GeoPackage.
 # Output      0.3 instead of 0.30000000000000004
 # Expected    The number as it was.
 # Way out     Select the number as text, and give the type of the new column:

@@ -3,8 +3,8 @@
 #
 # Version     PostGIS 3.3.2 with GEOS 3.11.1 (Debian 12: postgresql-15-postgis-3 3.3.2+dfsg-1+b1),
 #             PostgreSQL 15
-# Behaviour   The vertices that a line or polygon keeps have their Z; those at the box have NaN. If no vertex is
-#             within the box, what is left is two-dimensional, and its ST_ZMin is 0. ST_Intersection with the
+# Behaviour   The vertices that a line or polygon keeps have their Z; those at the box have NaN. If no vertex of a
+#             line is within the box, the rest is two-dimensional, and its ST_ZMin is 0. ST_Intersection with the
 #             same box interpolates.
 # Output      LINESTRING Z (0 0 2,2 0 NaN), and of its middle LINESTRING(1 0,2 0)
 # Expected    LINESTRING Z (0 0 2,2 0 5) and LINESTRING Z (1 0 3.5,2 0 5), as by ST_Intersection
