@@ -11,7 +11,8 @@
  * in the same way. Its name ends in _lines. One that has had regions has a fourth, of the type
  * abacus_region_part, whose name ends in _regions; one made by thinning, one of the type
  * abacus_thinning, whose name ends in _thinning. One into which steps of a solution have been stored has
- * a partitioned table of the type abacus_step_values, whose name ends in _steps.
+ * a partitioned table of the type abacus_step_values, whose name ends in _steps. One with levels has one of the
+ * type abacus_level, which names the meshes that are its levels.
  */
 #include "postgres.h"
 
@@ -35,6 +36,7 @@
 #include "utils/lsyscache.h"
 #include "utils/syscache.h"
 
+#include "pg/mesh/levels_table.h"
 #include "pg/mesh/mesh.h"
 #include "pg/mesh/mesh_access.h"
 #include "pg/port/port.h"
@@ -113,6 +115,7 @@ TABLE_TEST(is_lines_table, RELKIND_RELATION, LINE_POINT_TYPE)
 TABLE_TEST(is_regions_table, RELKIND_RELATION, REGION_PART_TYPE)
 TABLE_TEST(is_thinning_table, RELKIND_RELATION, THINNING_TYPE)
 TABLE_TEST(is_steps_table, RELKIND_PARTITIONED_TABLE, STEP_VALUES_TYPE)
+TABLE_TEST(is_levels_table, RELKIND_RELATION, LEVEL_TYPE)
 
 /* Opens the table of a mesh under the given lock, or says why it cannot be used. */
 static Relation
@@ -207,6 +210,7 @@ static const SideTable lines_side = {LINES_TABLE_SUFFIX, is_lines_table, "table 
 static const SideTable regions_side = {REGIONS_TABLE_SUFFIX, is_regions_table, "table of regions"};
 static const SideTable thinning_side = {THINNING_TABLE_SUFFIX, is_thinning_table, "table of its thinning"};
 static const SideTable steps_side = {STEPS_TABLE_SUFFIX, is_steps_table, "table of steps"};
+static const SideTable levels_side = {LEVELS_TABLE_SUFFIX, is_levels_table, "table of levels"};
 
 /* Such a table of a mesh, found by its name alone; InvalidOid if there is none. */
 static Oid
@@ -247,6 +251,13 @@ Oid
 mesh_find_rows_table(Oid mesh, bool of_regions)
 {
 	return find_side_table(mesh, of_regions ? &regions_side : &lines_side, &(bool) {false});
+}
+
+/* ... and for that of its levels. */
+Oid
+mesh_find_levels_table(Oid mesh)
+{
+	return find_side_table(mesh, &levels_side, &(bool) {false});
 }
 
 /* The mesh whose simplex table or vertex table this is; InvalidOid if none. */
@@ -327,6 +338,13 @@ mesh_regions_table(Relation mesh, MeshAccess access)
 	return row_table(mesh, &regions_side, access);
 }
 
+/* ... for that of its levels, ... */
+Oid
+mesh_levels_table(Relation mesh, MeshAccess access)
+{
+	return row_table(mesh, &levels_side, access);
+}
+
 /* ... and for the one that says how it was thinned. */
 Oid
 mesh_thinning_table(Relation mesh, MeshAccess access)
@@ -366,6 +384,7 @@ mesh_vertex_table(Relation mesh, MeshAccess access)
 		(void) mesh_regions_table(mesh, access);
 		(void) mesh_thinning_table(mesh, access);
 		(void) mesh_steps_table(mesh, access);
+		levels_bind(mesh);
 		if (on_restored != NULL)
 			on_restored(mesh);
 	}

@@ -1,6 +1,6 @@
 /*
  * mesh.h: the representation of a mesh in the database: two typed tables, and others if it has had lines
- * or regions or was thinned; found, locked and checked for privileges.
+ * or regions, has levels, or was thinned; found, locked and checked for privileges.
  */
 #ifndef ABACUS_MESH_H
 #define ABACUS_MESH_H
@@ -23,6 +23,9 @@
 #define STEP_VALUES_TYPE "abacus_step_values"
 #define STEP_VALUES_COLUMNS 4
 #define STEPS_TABLE_SUFFIX "_steps"
+#define LEVEL_TYPE "abacus_level"
+#define LEVEL_COLUMNS 6
+#define LEVELS_TABLE_SUFFIX "_levels"
 
 /* What a caller intends to do, which decides the lock and the privileges it needs. */
 typedef enum MeshAccess
@@ -48,6 +51,7 @@ extern Oid	mesh_of_table(Oid relid);
 extern Oid	mesh_table_owner(Oid relid);
 extern Oid	mesh_find_vertex_table(Oid mesh);
 extern Oid	mesh_find_rows_table(Oid mesh, bool of_regions);
+extern Oid	mesh_find_levels_table(Oid mesh);
 extern Oid	mesh_vertex_table(Relation mesh, MeshAccess access);
 extern void mesh_bind_object(Oid class, Oid object, Oid mesh);
 extern void mesh_bind_table(Oid mesh, Oid table);
@@ -55,6 +59,7 @@ extern Oid	mesh_lines_table(Relation mesh, MeshAccess access);
 extern Oid	mesh_regions_table(Relation mesh, MeshAccess access);
 extern Oid	mesh_thinning_table(Relation mesh, MeshAccess access);
 extern Oid	mesh_steps_table(Relation mesh, MeshAccess access);
+extern Oid	mesh_levels_table(Relation mesh, MeshAccess access);
 extern Oid	mesh_of_trigger(Oid trigger);
 extern void mesh_bind_trigger(Oid mesh, Oid trigger);
 extern void mesh_tell_of_restored(void (*tell) (Relation mesh));

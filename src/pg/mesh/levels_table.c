@@ -1,0 +1,167 @@
+/*
+ * levels_table.c: the table of a mesh's levels, made and read, and the level that is fine enough.
+ *
+ * A level is a mesh of its own, which depends on the full one as a table beside it does. The table names
+ * it by a regclass, which follows it when it is renamed, and which a dump writes as a name.
+ */
+#include "postgres.h"
+
+#include <math.h>
+
+#include "access/table.h"
+#include "executor/spi.h"
+#include "miscadmin.h"
+#include "utils/acl.h"
+#include "utils/builtins.h"
+#include "utils/lsyscache.h"
+#include "utils/rls.h"
+
+#include "pg/mesh/levels_table.h"
+#include "pg/mesh/lines_table.h"
+#include "pg/mesh/new_table.h"
+#include "pg/port/port.h"
+
+/* Columns of a query for levels, from 1 as SPI counts. */
+enum
+{
+	LEVEL_NUMBER = 1,
+	LEVEL_MESH,
+	LEVEL_ATTRIBUTE,
+	LEVEL_MAX_ERROR,
+	LEVEL_GREATEST,
+	LEVEL_STAMP
+};
+
+/* Makes the table of a mesh that has none. */
+Oid
+levels_table_make(Relation mesh)
+{
+	static const NewSideTable levels = {
+		.suffix = LEVELS_TABLE_SUFFIX,.type = LEVEL_TYPE,.columns = LEVEL_COLUMNS,
+		.options = "mesh WITH OPTIONS NOT NULL, attribute WITH OPTIONS NOT NULL, max_error WITH OPTIONS NOT NULL, "
+		"greatest WITH OPTIONS NOT NULL, stamp WITH OPTIONS NOT NULL, PRIMARY KEY (level)",
+		.contents = "levels",.maker = "abacus_levels()",.reader = "abacus_levels()"
+	};
+
+	return side_table_make(mesh, &levels);
+}
+
+static Datum
+value_at(uint64 row, int column)
+{
+	bool		isnull;
+
+	return SPI_getbinval(SPI_tuptable->vals[row], SPI_tuptable->tupdesc, column, &isnull);
+}
+
+/* All levels in the current memory context, the finest first; returns how many. A writer sees what it has changed. */
+int
+levels_read(Oid table, MeshAccess access, Level **levels)
+{
+	MemoryContext caller = CurrentMemoryContext;
+	MemoryContext spi;
+	int			count;
+
+	SPI_connect();
+	if (SPI_execute(psprintf("SELECT level, mesh, attribute, max_error, greatest, stamp FROM %s ORDER BY level",
+							 lines_table_name(table)), access == MESH_READ, 0) != SPI_OK_SELECT)
+		elog(ERROR, "could not read the levels: %s", SPI_result_code_string(SPI_result));
+	count = (int) SPI_processed;
+	spi = MemoryContextSwitchTo(caller);
+	*levels = palloc0((count + 1) * sizeof(Level));
+	for (int i = 0; i < count; i++)
+	{
+		Level	   *level = &(*levels)[i];
+
+		level->number = DatumGetInt32(value_at(i, LEVEL_NUMBER));
+		level->mesh = DatumGetObjectId(value_at(i, LEVEL_MESH));
+		level->attribute = SPI_getvalue(SPI_tuptable->vals[i], SPI_tuptable->tupdesc, LEVEL_ATTRIBUTE);
+		level->max_error = DatumGetFloat8(value_at(i, LEVEL_MAX_ERROR));
+		level->greatest = DatumGetFloat8(value_at(i, LEVEL_GREATEST));
+		level->stamp = DatumGetInt64(value_at(i, LEVEL_STAMP));
+	}
+	MemoryContextSwitchTo(spi);
+	SPI_finish();
+	return count;
+}
+
+/* The same for a mesh; 0 if it has none, or if the user may not read them. */
+int
+levels_read_if_allowed(Oid mesh, Level **levels)
+{
+	Oid			table = mesh_find_levels_table(mesh);
+	Relation	rel;
+	int			count;
+
+	if (!OidIsValid(table) || pg_class_aclcheck(table, GetUserId(), ACL_SELECT) != ACLCHECK_OK ||
+		check_enable_rls(table, GetUserId(), true) == RLS_ENABLED)
+		return 0;
+	rel = mesh_table_open(mesh, MESH_READ);
+	table = mesh_levels_table(rel, MESH_READ);
+	count = OidIsValid(table) ? levels_read(table, MESH_READ, levels) : 0;
+	table_close(rel, NoLock);
+	return count;
+}
+
+/* Binds the levels of a restored mesh to it, and their table: those that the user owns. */
+void
+levels_bind(Relation mesh)
+{
+	Oid			table = mesh_levels_table(mesh, MESH_WRITE);
+	Level	   *levels;
+	int			count = OidIsValid(table) ? levels_read(table, MESH_WRITE, &levels) : 0;
+
+	for (int i = 0; i < count; i++)
+		if (levels[i].mesh != RelationGetRelid(mesh) && mesh_of_table(levels[i].mesh) == levels[i].mesh &&
+			object_ownercheck(RelationRelationId, levels[i].mesh, GetUserId()))
+			mesh_bind_table(RelationGetRelid(mesh), levels[i].mesh);
+}
+
+static void
+check_max_error(double max_error)
+{
+	if (isnan(max_error) || max_error < 0)
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+				 errmsg("max_error must be a number, at least 0"),
+				 errhint("Give the greatest error of the level to read, in units of the attribute.")));
+}
+
+/*
+ * The mesh to read where an error is allowed: the coarsest level whose error is not greater, or else the full
+ * mesh. Errors of levels are those of one attribute; NULL stands for any.
+ */
+Oid
+levels_choose(Oid mesh, double max_error, const char *attribute)
+{
+	Relation	rel = mesh_table_open(mesh, MESH_READ);
+	Oid			table = mesh_levels_table(rel, MESH_READ);
+	const Level *chosen = NULL;
+	Level	   *levels;
+	int			count = OidIsValid(table) ? levels_read(table, MESH_READ, &levels) : 0;
+
+	table_close(rel, NoLock);
+	check_max_error(max_error);
+	if (count == 0)
+		ereport(ERROR,
+				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
+				 errmsg("mesh \"%s\" has no levels", get_rel_name(mesh)),
+				 errhint("Make them with abacus_levels(), or leave out the error that is allowed.")));
+	for (int i = 0; i < count; i++)
+		if (levels[i].greatest <= max_error)
+			chosen = &levels[i];
+	if (attribute != NULL && strcmp(attribute, levels[0].attribute) != 0)
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+				 errmsg("the levels of mesh \"%s\" are not levels of \"%s\"", get_rel_name(mesh), attribute),
+				 errdetail("Their errors are those of attribute \"%s\".", levels[0].attribute),
+				 errhint("Leave out the error that is allowed, to read the full mesh.")));
+	if (chosen == NULL)
+		return mesh;
+	if (get_rel_name(chosen->mesh) == NULL)
+		ereport(ERROR,
+				(errcode(ERRCODE_UNDEFINED_TABLE),
+				 errmsg("level %d of mesh \"%s\" no longer exists", chosen->number, get_rel_name(mesh)),
+				 errhint("Drop the other levels with abacus_levels_drop(), and make them anew with abacus_levels().")));
+	return chosen->mesh;
+}

@@ -1,0 +1,428 @@
+/*
+ * fn_levels.c: levels of detail: coarser meshes beside a mesh, made by abacus_thin, made anew when the mesh
+ * has changed, and dropped.
+ *
+ * All levels are thinned by one statement, so from one state of the mesh. A refresh replaces the rows of
+ * their tables, as DELETE and INSERT do: until its commit others read the former ones, privileges and
+ * published tables stay, and replicas follow. What is new is first made in temporary tables, which do
+ * not reach replicas.
+ */
+#include "postgres.h"
+
+#include <math.h>
+
+#include "access/table.h"
+#include "access/xact.h"
+#include "catalog/namespace.h"
+#include "catalog/pg_class.h"
+#include "catalog/pg_type.h"
+#include "executor/spi.h"
+#include "funcapi.h"
+#include "lib/stringinfo.h"
+#include "miscadmin.h"
+#include "storage/lmgr.h"
+#include "utils/acl.h"
+#include "utils/array.h"
+#include "utils/builtins.h"
+#include "utils/lsyscache.h"
+#include "utils/snapmgr.h"
+
+#include "pg/base/sql_function.h"
+#include "pg/lines/named_rows.h"
+#include "pg/mesh/levels_table.h"
+#include "pg/mesh/lines_table.h"
+#include "pg/mesh/new_table.h"
+#include "pg/mesh/reader.h"
+#include "pg/mesh/shape.h"
+#include "pg/port/port.h"
+#include "pg/sql/arguments/attribute.h"
+
+SQL_FUNCTION(abacus_sql_levels);
+SQL_FUNCTION(abacus_sql_levels_refresh);
+SQL_FUNCTION(abacus_sql_levels_drop);
+SQL_FUNCTION(abacus_sql_level);
+
+/* Arguments */
+enum
+{
+	OF_MESH,
+	OF_ERRORS,
+	OF_ATTRIBUTE
+};
+
+/* Columns of the result */
+enum
+{
+	MADE_LEVEL,
+	MADE_MESH,
+	MADE_ERROR,
+	MADE_VERTICES,
+	MADE_COLUMNS
+};
+
+/* A call, which runs as the owner of the mesh. */
+typedef struct Levels
+{
+	Oid			mesh;
+	char	   *extension;		/* schema */
+	Oid			user;
+	int			security;
+	int			settings;
+} Levels;
+
+/* ---- Running as the owner ----------------------------------------------------------------- */
+
+/* The mesh and all beside it have one owner, whoever calls in his name. */
+static void
+begin_as_owner(Levels *levels, FunctionCallInfo fcinfo, Oid mesh)
+{
+	Relation	rel = mesh_table_open(mesh, MESH_READ);
+
+	if (!object_ownercheck(RelationRelationId, mesh, GetUserId()))
+		ereport(ERROR,
+				(errcode(ERRCODE_INSUFFICIENT_PRIVILEGE),
+				 errmsg("must be owner of mesh \"%s\" to make or change its levels", get_rel_name(mesh)),
+				 errhint("Its owner can call abacus_levels(), and grant SELECT on the levels and on their table.")));
+	levels->mesh = mesh;
+	levels->extension = pstrdup(quote_identifier(get_namespace_name(get_func_namespace(fcinfo->flinfo->fn_oid))));
+	GetUserIdAndSecContext(&levels->user, &levels->security);
+	SetUserIdAndSecContext(rel->rd_rel->relowner, levels->security | SECURITY_LOCAL_USERID_CHANGE);
+	table_close(rel, NoLock);
+	SPI_connect();
+	levels->settings = plain_names_begin(false);
+}
+
+static void
+end_as_owner(const Levels *levels)
+{
+	plain_names_end(levels->settings);
+	SPI_finish();
+	SetUserIdAndSecContext(levels->user, levels->security);
+}
+
+static void
+run(const char *command, int expected)
+{
+	int			status = SPI_execute(command, false, 0);
+
+	if (status != expected)
+		elog(ERROR, "could not run \"%s\": %s", command, SPI_result_code_string(status));
+}
+
+/* ---- The rows of the result --------------------------------------------------------------- */
+
+static uint64
+vertices_of(Oid mesh)
+{
+	Reader	   *reader = reader_open(mesh, CurrentMemoryContext);
+	uint64		vertices = reader->header.facts.census.vertices;
+
+	host_release(reader->host);
+	host_destroy(reader->host);
+	return vertices;
+}
+
+/* Returns the levels as they are now. */
+static void
+put_levels(FunctionCallInfo fcinfo, const Levels *called)
+{
+	ReturnSetInfo *set = (ReturnSetInfo *) fcinfo->resultinfo;
+	Level	   *levels;
+	int			count;
+
+	CommandCounterIncrement();
+	PushActiveSnapshot(GetLatestSnapshot());
+	count = levels_read(mesh_find_levels_table(called->mesh), MESH_WRITE, &levels);
+	for (int i = 0; i < count; i++)
+	{
+		bool		isnull[MADE_COLUMNS] = {false};
+		Datum		values[MADE_COLUMNS] = {
+			[MADE_LEVEL] = Int32GetDatum(levels[i].number),[MADE_MESH] = ObjectIdGetDatum(levels[i].mesh),
+			[MADE_ERROR] = Float8GetDatum(levels[i].greatest),
+			[MADE_VERTICES] = Int64GetDatum((int64) vertices_of(levels[i].mesh))
+		};
+
+		tuplestore_putvalues(set->setResult, set->setDesc, values, isnull);
+	}
+	PopActiveSnapshot();
+}
+
+/* ---- abacus_levels ------------------------------------------------------------------------ */
+
+static Datum *
+errors_argument(ArrayType *array, int *count)
+{
+	Datum	   *errors = shape_numbers(array, "errors", count);
+
+	if (*count == 0)
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+				 errmsg("errors must not be empty"),
+				 errhint("Give the greatest error of each level, the finest level first.")));
+	for (int i = 0; i < *count; i++)
+	{
+		double		value = DatumGetFloat8(errors[i]);
+
+		if (!(value >= 0) || isinf(value))
+			ereport(ERROR,
+					(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+					 errmsg("errors must be finite and not negative"),
+					 errhint("Give the greatest error of each level, in units of the attribute.")));
+		if (i > 0 && !(value > DatumGetFloat8(errors[i - 1])))
+			ereport(ERROR,
+					(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+					 errmsg("errors must increase"),
+					 errhint("Give the finest level first, and each error once.")));
+	}
+	return errors;
+}
+
+/* The name of the attribute whose errors are meant. */
+static char *
+attribute_name(FunctionCallInfo fcinfo, Oid mesh)
+{
+	Reader	   *reader = reader_open(mesh, CurrentMemoryContext);
+	char	   *name = reader->header.names[attribute_argument(fcinfo, OF_ATTRIBUTE, abacus_names_of(&reader->header))];
+
+	host_release(reader->host);
+	host_destroy(reader->host);
+	return name;
+}
+
+static char *
+level_name(const char *mesh, int number)
+{
+	return psprintf("%s_level_%d", mesh, number);
+}
+
+/* Thins the mesh to all levels, by one statement. */
+static void
+thin_to_levels(const Levels *called, const char *schema, const char *name, Datum *errors, int count,
+			   const char *attribute)
+{
+	Datum	   *names = palloc(count * sizeof(Datum));
+	Oid			types[] = {REGCLASSOID, TEXTARRAYOID, FLOAT8ARRAYOID, TEXTOID};
+	Datum		values[4];
+
+	for (int i = 0; i < count; i++)
+		names[i] = CStringGetTextDatum(quote_qualified_identifier(schema, level_name(name, i + 1)));
+	values[0] = ObjectIdGetDatum(called->mesh);
+	values[1] = PointerGetDatum(construct_array(names, count, TEXTOID, -1, false, TYPALIGN_INT));
+	values[2] = PointerGetDatum(construct_array(errors, count, FLOAT8OID, sizeof(float8), FLOAT8PASSBYVAL,
+												TYPALIGN_DOUBLE));
+	values[3] = CStringGetTextDatum(attribute);
+	if (SPI_execute_with_args(psprintf("SELECT %s.abacus_thin($1, l.name, l.error, $4) FROM unnest($2, $3) AS l (name, error)",
+									   called->extension), lengthof(types), types, values, NULL, false, 0) != SPI_OK_SELECT)
+		elog(ERROR, "could not make levels: %s", SPI_result_code_string(SPI_result));
+}
+
+/* The table that says how a mesh is thinned, as a name in SQL. */
+static char *
+thinning_name(Oid mesh)
+{
+	Relation	rel = mesh_table_open(mesh, MESH_READ);
+	Oid			table = mesh_thinning_table(rel, MESH_READ);
+
+	table_close(rel, NoLock);
+	if (!OidIsValid(table))
+		ereport(ERROR,
+				(errcode(ERRCODE_UNDEFINED_TABLE),
+				 errmsg("level \"%s\" has lost its table of thinning", get_rel_name(mesh)),
+				 errhint("Drop the levels with abacus_levels_drop(), and make them anew with abacus_levels().")));
+	return lines_table_name(table);
+}
+
+/* Enters what has been made into the table of levels. */
+static void
+enter_levels(const Levels *called, Oid table, const char *schema, const char *name, int count)
+{
+	Oid			namespace = get_namespace_oid(schema, false);
+
+	for (int i = 1; i <= count; i++)
+	{
+		Oid			level = new_table_id(namespace, level_name(name, i));
+
+		run(psprintf("INSERT INTO %s SELECT %d, '%u'::regclass, attribute, max_error, greatest, stamp FROM %s",
+					 lines_table_name(table), i, level, thinning_name(level)), SPI_OK_INSERT);
+		mesh_bind_table(called->mesh, level);
+	}
+}
+
+/* abacus_levels(mesh regclass, errors float8[], attribute text) -> level, mesh, error, vertices */
+Datum
+abacus_sql_levels(PG_FUNCTION_ARGS)
+{
+	Levels		called;
+	Relation	mesh;
+	Datum	   *errors;
+	char	   *schema;
+	char	   *name;
+	char	   *attribute;
+	int			count;
+	Oid			table;
+
+	InitMaterializedSRF(fcinfo, 0);
+	if (PG_ARGISNULL(OF_MESH) || PG_ARGISNULL(OF_ERRORS))
+		ereport(ERROR,
+				(errcode(ERRCODE_NULL_VALUE_NOT_ALLOWED),
+				 errmsg("mesh and errors must not be NULL"),
+				 errhint("errors are the greatest errors of the levels, the finest level first.")));
+	errors = errors_argument(PG_GETARG_ARRAYTYPE_P(OF_ERRORS), &count);
+	attribute = attribute_name(fcinfo, PG_GETARG_OID(OF_MESH));
+	begin_as_owner(&called, fcinfo, PG_GETARG_OID(OF_MESH));
+	mesh = mesh_table_open(called.mesh, MESH_READ);
+	name = pstrdup(RelationGetRelationName(mesh));
+	schema = get_namespace_name(RelationGetNamespace(mesh));
+	if (OidIsValid(mesh_levels_table(mesh, MESH_READ)))
+		ereport(ERROR,
+				(errcode(ERRCODE_DUPLICATE_TABLE),
+				 errmsg("mesh \"%s\" already has levels", name),
+				 errhint("Make the same ones anew with abacus_levels_refresh(), or drop them first with "
+						 "abacus_levels_drop().")));
+	table = levels_table_make(mesh);
+	table_close(mesh, NoLock);
+	thin_to_levels(&called, schema, name, errors, count, attribute);
+	enter_levels(&called, table, schema, name, count);
+	put_levels(fcinfo, &called);
+	end_as_owner(&called);
+	PG_RETURN_NULL();
+}
+
+/* ---- abacus_levels_refresh ---------------------------------------------------------------- */
+
+#define FRESH_NAME "abacus_fresh_level_"
+
+/* The levels of a mesh that must have some, kept from others who make them anew. */
+static Oid
+lock_levels(const Levels *called, Level **levels, int *count)
+{
+	Oid			table = mesh_find_levels_table(called->mesh);
+	Relation	mesh;
+
+	/* at once in the strongest mode, so that two sessions do not wait for each other */
+	if (OidIsValid(table))
+		LockRelationOid(table, ShareRowExclusiveLock);
+	mesh = mesh_table_open(called->mesh, MESH_READ);
+	table = mesh_levels_table(mesh, MESH_WRITE);
+	table_close(mesh, NoLock);
+	if (!OidIsValid(table))
+		ereport(ERROR,
+				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
+				 errmsg("mesh \"%s\" has no levels", get_rel_name(called->mesh)),
+				 errhint("Make them with abacus_levels().")));
+	*count = levels_read(table, MESH_WRITE, levels);
+	return table;
+}
+
+static void
+check_levels_exist(const Levels *called, const Level *levels, int count)
+{
+	for (int i = 0; i < count; i++)
+		if (mesh_of_table(levels[i].mesh) != levels[i].mesh)
+			ereport(ERROR,
+					(errcode(ERRCODE_UNDEFINED_TABLE),
+					 errmsg("level %d of mesh \"%s\" no longer exists", levels[i].number, get_rel_name(called->mesh)),
+					 errhint("Drop the other levels with abacus_levels_drop(), and make them anew with "
+							 "abacus_levels().")));
+}
+
+static void
+replace_rows(const char *of, const char *by)
+{
+	run(psprintf("DELETE FROM %s", of), SPI_OK_DELETE);
+	run(psprintf("INSERT INTO %s SELECT * FROM %s", of, by), SPI_OK_INSERT);
+}
+
+/* The lines of the level become those of the fresh one; they may be its first, or none. */
+static void
+replace_lines(Relation level, Relation fresh)
+{
+	Oid			by = mesh_lines_table(fresh, MESH_READ);
+	Oid			of = mesh_lines_table(level, MESH_WRITE);
+	bool		is_new = false;
+
+	if (!OidIsValid(by) && !OidIsValid(of))
+		return;
+	if (!OidIsValid(of))
+		of = lines_table_make(level, &is_new);
+	if (OidIsValid(by))
+		replace_rows(lines_table_name(of), lines_table_name(by));
+	else
+		run(psprintf("DELETE FROM %s", lines_table_name(of)), SPI_OK_DELETE);
+	if (is_new)
+		lines_table_index(level);
+}
+
+/* Replaces all rows of a level, and its row in the table of levels; drops the fresh mesh. */
+static void
+replace_level(Oid table, const Level *level)
+{
+	Oid			fresh = new_table_id(LookupNamespaceNoError("pg_temp"), psprintf(FRESH_NAME "%d", level->number));
+	Relation	by = mesh_table_open(fresh, MESH_READ);
+	Relation	of = mesh_table_open(level->mesh, MESH_WRITE);
+
+	replace_rows(lines_table_name(level->mesh), lines_table_name(fresh));
+	replace_rows(lines_table_name(mesh_vertex_table(of, MESH_WRITE)), lines_table_name(mesh_vertex_table(by, MESH_READ)));
+	replace_lines(of, by);
+	replace_rows(thinning_name(level->mesh), thinning_name(fresh));
+	run(psprintf("UPDATE %s AS l SET greatest = t.greatest, stamp = t.stamp FROM %s AS t WHERE l.level = %d",
+				 lines_table_name(table), thinning_name(fresh), level->number), SPI_OK_UPDATE);
+	table_close(of, NoLock);
+	table_close(by, NoLock);
+	run(psprintf("DROP TABLE %s", lines_table_name(fresh)), SPI_OK_UTILITY);
+}
+
+/* abacus_levels_refresh(mesh regclass) -> level, mesh, error, vertices */
+Datum
+abacus_sql_levels_refresh(PG_FUNCTION_ARGS)
+{
+	Levels		called;
+	Level	   *levels;
+	int			count;
+	Oid			table;
+
+	InitMaterializedSRF(fcinfo, 0);
+	begin_as_owner(&called, fcinfo, PG_GETARG_OID(OF_MESH));
+	table = lock_levels(&called, &levels, &count);
+	check_levels_exist(&called, levels, count);
+	run(psprintf("SELECT %s.abacus_thin('%u', 'pg_temp." FRESH_NAME "' || level, max_error, attribute) FROM %s",
+				 called.extension, called.mesh, lines_table_name(table)), SPI_OK_SELECT);
+	for (int i = 0; i < count; i++)
+		replace_level(table, &levels[i]);
+	put_levels(fcinfo, &called);
+	end_as_owner(&called);
+	PG_RETURN_NULL();
+}
+
+/* ---- abacus_levels_drop, abacus_level ------------------------------------------------------- */
+
+/* abacus_levels_drop(mesh regclass) -> integer: levels that were dropped */
+Datum
+abacus_sql_levels_drop(PG_FUNCTION_ARGS)
+{
+	Levels		called;
+	Level	   *levels;
+	int			count;
+	int			dropped = 0;
+	StringInfoData command;
+
+	begin_as_owner(&called, fcinfo, PG_GETARG_OID(OF_MESH));
+	initStringInfo(&command);
+	appendStringInfo(&command, "DROP TABLE %s", lines_table_name(lock_levels(&called, &levels, &count)));
+	for (int i = 0; i < count; i++)
+		if (mesh_of_table(levels[i].mesh) == levels[i].mesh)
+		{
+			appendStringInfo(&command, ", %s", lines_table_name(levels[i].mesh));
+			dropped++;
+		}
+	run(command.data, SPI_OK_UTILITY);
+	end_as_owner(&called);
+	PG_RETURN_INT32(dropped);
+}
+
+/* abacus_level(mesh regclass, max_error float8) -> regclass */
+Datum
+abacus_sql_level(PG_FUNCTION_ARGS)
+{
+	PG_RETURN_OID(levels_choose(PG_GETARG_OID(0), PG_GETARG_FLOAT8(1), NULL));
+}
