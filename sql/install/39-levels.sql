@@ -34,7 +34,7 @@ RETURNS SETOF record
 AS 'MODULE_PATHNAME', 'abacus_sql_levels_refresh'
 LANGUAGE C VOLATILE STRICT PARALLEL UNSAFE ROWS 8;
 COMMENT ON FUNCTION abacus_levels_refresh(regclass) IS
-    'makes the levels of a mesh anew, with the same errors, from the mesh as it is now. Until the commit others read the former ones. The meshes stay, with their privileges and what was published of them; what is in them is what abacus_levels would make. Returns the same as abacus_levels. Errors: those of abacus_thin; 42501 not the owner, or no right to make temporary tables; 55000 no levels, 42P01 a level was dropped';
+    'makes the levels of a mesh anew, with the same errors, from the mesh as it is now. Until the commit others read the former ones. The meshes stay, with their privileges and published tables; they are then those that abacus_levels would make. Returns the same as abacus_levels. Shapes: a row for each level. Units: error in those of the attribute. Errors: those of abacus_thin; 42501 not the owner, or no right to make temporary tables; 55000 no levels, 42P01 a level was dropped';
 
 CREATE FUNCTION abacus_levels_drop(mesh regclass)
 RETURNS integer

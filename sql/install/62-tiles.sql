@@ -17,12 +17,14 @@ CREATE FUNCTION abacus_tile_picture(
     contours double precision DEFAULT NULL,
     within text DEFAULT NULL,
     regions boolean DEFAULT false,
-    lines boolean DEFAULT false)
+    lines boolean DEFAULT false,
+    max_error double precision DEFAULT NULL,
+    pixel_error double precision DEFAULT NULL)
 RETURNS bytea
 AS 'MODULE_PATHNAME', 'abacus_sql_tile_picture'
 LANGUAGE C STABLE PARALLEL SAFE COST 1000000;
-COMMENT ON FUNCTION abacus_tile_picture(regclass, integer, integer, integer, integer, double precision[], integer, text, double precision[], boolean, double precision, double precision, text, double precision, text, boolean, boolean) IS
-    'a tile of a web map as a PNG, drawn as by abacus_draw, with nothing behind the mesh. The coordinates of the mesh are longitude and latitude (SRID 4326), Web Mercator (3857), or lie in a square with this lower left corner and side (world). within is the name of a region of the mesh, or a polygon as WKT, EWKT or hexadecimal EWKB; all else is as outside of the mesh. regions and lines are those of abacus_draw. Shapes: world is {x, y, side}; range is {first, last}. Units: size in pixels; world and max_edge in those of the coordinates; range and contours in those of the attribute; heights in metres with SRID 4326. Errors: 22023 no such tile, another SRID, a size out of range, an attribute without range, a mesh of dimension 3; 55000 neither srid nor world for a mesh without SRID; 2202E world of another length; 42704 no such region';
+COMMENT ON FUNCTION abacus_tile_picture(regclass, integer, integer, integer, integer, double precision[], integer, text, double precision[], boolean, double precision, double precision, text, double precision, text, boolean, boolean, double precision, double precision) IS
+    'a tile of a web map as a PNG, drawn as by abacus_draw, with nothing behind the mesh. The coordinates of the mesh are longitude and latitude (SRID 4326), Web Mercator (3857), or lie in a square with this lower left corner and side (world). within is the name of a region of the mesh, or a polygon as WKT, EWKT or hexadecimal EWKB; all else is as outside of the mesh. regions and lines are those of abacus_draw. max_error reads the coarsest level of abacus_levels whose error is not greater; pixel_error says the same in pixels on the ground at the centre of the tile. Shapes: world is {x, y, side}; range is {first, last}. Units: size in pixels; world and max_edge in those of the coordinates; range, contours and max_error in those of the attribute; heights in metres with SRID 4326. Errors: 22023 no such tile, another SRID, a size out of range, an attribute without range, a mesh of dimension 3, both errors; 55000 neither srid nor world for a mesh without SRID, an error without levels; 2202E world of another length; 42704 no such region';
 
 CREATE FUNCTION abacus_tile_vector(
     mesh regclass,
@@ -34,12 +36,14 @@ CREATE FUNCTION abacus_tile_vector(
     attribute text DEFAULT NULL,
     contours double precision DEFAULT NULL,
     max_edge double precision DEFAULT NULL,
-    within text DEFAULT NULL)
+    within text DEFAULT NULL,
+    max_error double precision DEFAULT NULL,
+    pixel_error double precision DEFAULT NULL)
 RETURNS bytea
 AS 'MODULE_PATHNAME', 'abacus_sql_tile_vector'
 LANGUAGE C STABLE PARALLEL SAFE COST 1000000;
-COMMENT ON FUNCTION abacus_tile_vector(regclass, integer, integer, integer, integer, double precision[], text, double precision, double precision, text) IS
-    'a tile of a web map as a Mapbox vector tile, with the layers triangles, vertices, contours, fixed and hull. Triangles have the name of their region, if the caller may read it; fixed has the fixed edges, in a tile with triangles those of each line, if the caller may read the lines. A tile with many triangles has only contours, fixed and hull. within is the name of a region of the mesh, or a polygon as WKT, EWKT or hexadecimal EWKB; all else is as outside of the mesh. Shapes: world is {x, y, side}. Units: world and max_edge in those of the coordinates; contours in those of the attribute. Errors: those of abacus_tile_picture; 42704 no such region';
+COMMENT ON FUNCTION abacus_tile_vector(regclass, integer, integer, integer, integer, double precision[], text, double precision, double precision, text, double precision, double precision) IS
+    'a tile of a web map as a Mapbox vector tile, with the layers triangles, vertices, contours, fixed and hull. Triangles have the name of their region, if the caller may read it; fixed has the fixed edges, in a tile with triangles those of each line, if the caller may read the lines. A tile with many triangles has only contours, fixed and hull. within is the name of a region of the mesh, or a polygon as WKT, EWKT or hexadecimal EWKB; all else is as outside of the mesh. max_error reads the coarsest level of abacus_levels whose error is not greater; pixel_error says the same in pixels on the ground at the centre of the tile. Shapes: world is {x, y, side}. Units: world and max_edge in those of the coordinates; contours and max_error in those of the attribute. A pixel is 1/256 of the side. Errors: those of abacus_tile_picture; 42704 no such region';
 
 CREATE FUNCTION abacus_tile_terrain(
     mesh regclass,
@@ -52,19 +56,21 @@ CREATE FUNCTION abacus_tile_terrain(
     attribute text DEFAULT NULL,
     max_edge double precision DEFAULT NULL,
     fill double precision DEFAULT 0,
-    within text DEFAULT NULL)
+    within text DEFAULT NULL,
+    max_error double precision DEFAULT NULL,
+    pixel_error double precision DEFAULT NULL)
 RETURNS bytea
 AS 'MODULE_PATHNAME', 'abacus_sql_tile_terrain'
 LANGUAGE C STABLE PARALLEL SAFE COST 1000000;
-COMMENT ON FUNCTION abacus_tile_terrain(regclass, integer, integer, integer, integer, double precision[], integer, text, double precision, double precision, text) IS
-    'a tile of a web map as a PNG whose colours are heights. The encoding is terrarium: 256 red + green + blue / 256 - 32768. within is the name of a region of the mesh, or a polygon as WKT, EWKT or hexadecimal EWKB; all else is as outside of the mesh. Shapes: world is {x, y, side}. Units: size in pixels; world and max_edge in those of the coordinates; fill in those of the attribute. Errors: those of abacus_tile_picture; 42704 no such region';
+COMMENT ON FUNCTION abacus_tile_terrain(regclass, integer, integer, integer, integer, double precision[], integer, text, double precision, double precision, text, double precision, double precision) IS
+    'a tile of a web map as a PNG whose colours are heights. The encoding is terrarium: 256 red + green + blue / 256 - 32768. within is the name of a region of the mesh, or a polygon as WKT, EWKT or hexadecimal EWKB; all else is as outside of the mesh. max_error reads the coarsest level of abacus_levels whose error is not greater; pixel_error says the same in pixels on the ground at the centre of the tile. Shapes: world is {x, y, side}. Units: size in pixels; world and max_edge in those of the coordinates; fill and max_error in those of the attribute. Errors: those of abacus_tile_picture; 42704 no such region';
 
 CREATE FUNCTION abacus_tile_etag(mesh regclass)
 RETURNS text
 AS 'MODULE_PATHNAME', 'abacus_sql_tile_etag'
 LANGUAGE C STABLE STRICT PARALLEL SAFE COST 1000;
 COMMENT ON FUNCTION abacus_tile_etag(regclass) IS
-    'a text that changes with each change of the mesh, for ETags of its tiles. Errors: 42809 not a mesh';
+    'a text that changes with each change of the mesh, and of its levels, for ETags of its tiles. Errors: 42809 not a mesh';
 
 CREATE FUNCTION abacus_tiles(
     mesh regclass,
@@ -80,9 +86,10 @@ CREATE FUNCTION abacus_tiles(
     size integer DEFAULT 256,
     within text DEFAULT NULL,
     regions boolean DEFAULT false,
-    lines boolean DEFAULT false)
+    lines boolean DEFAULT false,
+    pixel_error double precision DEFAULT NULL)
 RETURNS SETOF regprocedure
 AS 'MODULE_PATHNAME', 'abacus_sql_tiles'
 LANGUAGE C VOLATILE PARALLEL UNSAFE COST 100000 ROWS 4;
-COMMENT ON FUNCTION abacus_tiles(regclass, integer, double precision[], text, double precision[], double precision, text, double precision, boolean, double precision, integer, text, boolean, boolean) IS
-    'makes functions that tile servers call: <mesh>_picture, <mesh>_vector and <mesh>_terrain for Martin, <mesh>_mvt for pg_tileserv. Returns them. within is the name of a region of the mesh, or a polygon as WKT, EWKT or hexadecimal EWKB; all else is as outside of the mesh. regions and lines are those of abacus_tile_picture. Shapes: world is {x, y, side}; range is {first, last}. Units: size in pixels; world and max_edge in those of the coordinates; range and contours in those of the attribute. Errors: those of abacus_tile_picture; 42622 too long a name, 42501 no right to make functions; 42704 no such region';
+COMMENT ON FUNCTION abacus_tiles(regclass, integer, double precision[], text, double precision[], double precision, text, double precision, boolean, double precision, integer, text, boolean, boolean, double precision) IS
+    'makes functions that tile servers call: <mesh>_picture, <mesh>_vector and <mesh>_terrain for Martin, <mesh>_mvt for pg_tileserv. Returns them. within is the name of a region of the mesh, or a polygon as WKT, EWKT or hexadecimal EWKB; all else is as outside of the mesh. regions, lines and pixel_error are those of abacus_tile_picture. Shapes: world is {x, y, side}; range is {first, last}. Units: size in pixels; world and max_edge in those of the coordinates; range and contours in those of the attribute. Errors: those of abacus_tile_picture; 42622 too long a name, 42501 no right to make functions; 42704 no such region';

@@ -40,11 +40,11 @@ RETURNS regclass[]
 AS 'MODULE_PATHNAME', 'abacus_sql_publish'
 LANGUAGE C VOLATILE PARALLEL UNSAFE;
 COMMENT ON FUNCTION abacus_publish(regclass, text, text, text, boolean, integer, text, text, text) IS
-    'makes foreign tables of the cells and the points of a mesh, and in the plane views of its fixed edges and its lines. They are <mesh>_cells, <mesh>_points, <mesh>_fixed_edges and <mesh>_breaklines unless other names are given. Cells of a mesh with regions have the name of theirs. Where PostGIS is installed they have geometries, with the attribute z as Z. Columns of attributes that are dropped later cannot be read any more. Views with these names that show the mesh stay as they are. Returns the tables and views. Shapes: an array of the two tables, in the plane of the two views as well. Errors: 42809 not a mesh, 42703 no such attribute, 55000 geometry without PostGIS, 22023 another srid than the mesh has, or z of a mesh in space, 42P07 a table of that name';
+    'makes foreign tables of the cells and the points of a mesh, and in the plane views of its fixed edges and its lines. They are <mesh>_cells, <mesh>_points, <mesh>_fixed_edges and <mesh>_breaklines unless other names are given. Cells of a mesh with regions have the name of theirs. Where PostGIS is installed they have geometries, with the attribute z as Z. Columns of attributes that are dropped later cannot be read any more. A mesh with levels gets a table of the cells of each as well, <mesh>_cells_1 and so on. Views with these names that show the mesh stay as they are. Returns the tables and views. Shapes: an array of the two tables, in the plane of the two views as well, and those of the levels. Errors: 42809 not a mesh, 42703 no such attribute, 55000 geometry without PostGIS, 22023 another srid than the mesh has, or z of a mesh in space, 42P07 a table of that name';
 
 CREATE FUNCTION abacus_unpublish(mesh regclass)
 RETURNS integer
 AS 'MODULE_PATHNAME', 'abacus_sql_unpublish'
 LANGUAGE C VOLATILE STRICT PARALLEL UNSAFE;
 COMMENT ON FUNCTION abacus_unpublish(regclass) IS
-    'drops the foreign tables and views of a mesh that abacus_publish() has made and that the caller owns. Returns how many. Errors: 42809 not a mesh';
+    'drops the foreign tables and views of a mesh, and of its levels, that abacus_publish() has made and that the caller owns. Returns how many. Errors: 42809 not a mesh';

@@ -8,6 +8,7 @@
 #include "pg/base/settings.h"
 #include "pg/base/sql_function.h"
 #include "pg/fdw/published.h"
+#include "pg/levels/levels_table.h"
 #include "pg/mesh/mesh_cache.h"
 #include "pg/space/vacuum.h"
 #include "pg/track/pending.h"
@@ -25,6 +26,7 @@ bind_restored(Relation mesh)
 {
 	tracking_bind_restored(mesh);
 	published_bind_restored(mesh);
+	levels_bind(mesh);
 }
 
 void

@@ -19,6 +19,7 @@
 #include "pg/base/utility.h"
 #include "pg/fdw/line_views.h"
 #include "pg/fdw/published.h"
+#include "pg/levels/levels_table.h"
 #include "pg/mesh/mesh.h"
 #include "pg/mesh/reader.h"
 #include "pg/port/port.h"
@@ -260,13 +261,13 @@ geometry_arguments(FunctionCallInfo fcinfo, Publishing *publication)
 }
 
 static Datum
-regclass_array(const Oid *tables, int count)
+regclass_array(const List *tables)
 {
-	Datum		elements[4];
+	int			count = list_length(tables);
+	Datum	   *elements = palloc(count * sizeof(Datum));
 
-	Assert(count <= lengthof(elements));
 	for (int i = 0; i < count; i++)
-		elements[i] = ObjectIdGetDatum(tables[i]);
+		elements[i] = ObjectIdGetDatum(list_nth_oid(tables, i));
 	return PointerGetDatum(construct_array(elements, count, REGCLASSOID, sizeof(Oid), true,
 										   TYPALIGN_INT));
 }
@@ -292,6 +293,30 @@ read_mesh(Publishing *publication)
 	return reader;
 }
 
+/* Makes tables of the cells of the levels that the user may read; returns them. */
+static List *
+make_level_tables(const Publishing *full, const char *cells)
+{
+	Level	   *levels;
+	int			count = levels_read_if_allowed(full->mesh, &levels);
+	List	   *tables = NIL;
+
+	for (int i = 0; i < count; i++)
+	{
+		Publishing	publication = *full;
+		Reader	   *reader;
+
+		publication.mesh = levels[i].mesh;
+		reader = read_mesh(&publication);
+		if (full->z >= 0)
+			publication.z = header_find_attribute(publication.names, full->names.of[full->z]);
+		tables = lappend_oid(tables, make_table(&publication, CONTENT_CELLS,
+												makeObjectName(cells, NULL, psprintf("%d", levels[i].number))));
+		host_destroy(reader->host);
+	}
+	return tables;
+}
+
 /*
  * abacus_publish(mesh regclass, cells text, points text, schema text, geometry boolean,
  * srid integer, z text, fixed_edges text, breaklines text) -> regclass[]
@@ -303,9 +328,8 @@ abacus_sql_publish(PG_FUNCTION_ARGS)
 	const char *cells;
 	const char *points;
 	Reader	   *reader;
-	Oid			tables[4];
+	List	   *tables = NIL;
 	LineViews	views = {0};
-	int			count = 2;
 
 	if (PG_ARGISNULL(PUBLISH_MESH))
 		PG_RETURN_NULL();
@@ -318,8 +342,8 @@ abacus_sql_publish(PG_FUNCTION_ARGS)
 	geometry_arguments(fcinfo, &publication);
 	cells = table_name(fcinfo, PUBLISH_CELLS, publication.mesh, "cells");
 	points = table_name(fcinfo, PUBLISH_POINTS, publication.mesh, "points");
-	tables[0] = make_table(&publication, CONTENT_CELLS, cells);
-	tables[1] = make_table(&publication, CONTENT_POINTS, points);
+	tables = lappend_oid(tables, make_table(&publication, CONTENT_CELLS, cells));
+	tables = lappend_oid(tables, make_table(&publication, CONTENT_POINTS, points));
 	if (publication.names.facts->form.dimension == 2)
 	{
 		views.mesh = publication.mesh;
@@ -328,11 +352,14 @@ abacus_sql_publish(PG_FUNCTION_ARGS)
 		views.has_geometry = publication.geometry != NULL;
 		views.srid = publication.srid;
 		views.z = publication.z >= 0 ? publication.names.of[publication.z] : NULL;
-		tables[count++] = line_views_edges(&views, table_name(fcinfo, PUBLISH_FIXED_EDGES, views.mesh, "fixed_edges"));
-		tables[count++] = line_views_lines(&views, table_name(fcinfo, PUBLISH_BREAKLINES, views.mesh, "breaklines"));
+		tables = lappend_oid(tables, line_views_edges(&views, table_name(fcinfo, PUBLISH_FIXED_EDGES, views.mesh,
+																		  "fixed_edges")));
+		tables = lappend_oid(tables, line_views_lines(&views, table_name(fcinfo, PUBLISH_BREAKLINES, views.mesh,
+																		  "breaklines")));
 	}
+	tables = list_concat(tables, make_level_tables(&publication, cells));
 	host_destroy(reader->host);
-	PG_RETURN_DATUM(regclass_array(tables, count));
+	PG_RETURN_DATUM(regclass_array(tables));
 }
 
 static char *
@@ -360,6 +387,19 @@ drop(const char *kind, List *relations)
 	return dropped;
 }
 
+/* Drops the foreign tables of the levels of a mesh; returns how many. */
+static int
+drop_level_tables(Oid mesh)
+{
+	Level	   *levels;
+	int			count = levels_read_if_allowed(mesh, &levels);
+	int			dropped = 0;
+
+	for (int i = 0; i < count; i++)
+		dropped += drop("DROP FOREIGN TABLE", shown_tables(levels[i].mesh));
+	return dropped;
+}
+
 /*
  * abacus_unpublish(mesh regclass) -> integer: foreign tables and views of the caller that were
  * dropped
@@ -368,11 +408,11 @@ Datum
 abacus_sql_unpublish(PG_FUNCTION_ARGS)
 {
 	Oid			mesh = PG_GETARG_OID(0);
-	int			views;
+	int			others;
 
 	/* as mesh_table_open(), but dropping the tables does not need the right to read the mesh */
 	if (mesh_of_table(mesh) != mesh)
 		table_close(mesh_table_open(mesh, MESH_READ), NoLock);
-	views = drop("DROP VIEW", shown_views(mesh));
-	PG_RETURN_INT32(views + drop("DROP FOREIGN TABLE", shown_tables(mesh)));
+	others = drop("DROP VIEW", shown_views(mesh)) + drop_level_tables(mesh);
+	PG_RETURN_INT32(others + drop("DROP FOREIGN TABLE", shown_tables(mesh)));
 }

@@ -304,7 +304,7 @@ uint64
 new_lines_add(Change *change, Source *source, const char *vertices, const char *kind,
 			  ExistingLines existing, const char *z, const NewPoints *points)
 {
-	Oid			table = mesh_lines_table(mesh_of(change), MESH_WRITE);
+	Oid			table = mesh_rows_table(mesh_of(change), MESH_LINES, MESH_WRITE);
 	NewLines	lines = {
 		.vertices = vertices,
 		.reading = {abacus_names_of(change->writer.header), z, NULL},

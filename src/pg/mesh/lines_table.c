@@ -59,7 +59,7 @@ lines_table_make(Relation mesh, bool *is_new)
 		"kind WITH OPTIONS NOT NULL, PRIMARY KEY (line, position)",
 		.contents = "lines",.maker = "abacus_constrain()",.reader = "abacus_lines()"
 	};
-	Oid			table = mesh_lines_table(mesh, MESH_WRITE);
+	Oid			table = mesh_rows_table(mesh, MESH_LINES, MESH_WRITE);
 
 	*is_new = !OidIsValid(table);
 	return *is_new ? side_table_make(mesh, &lines) : table;
@@ -69,7 +69,7 @@ lines_table_make(Relation mesh, bool *is_new)
 void
 lines_table_index(Relation mesh)
 {
-	Oid			table = mesh_lines_table(mesh, MESH_WRITE);
+	Oid			table = mesh_rows_table(mesh, MESH_LINES, MESH_WRITE);
 
 	side_table_create(mesh, psprintf("CREATE INDEX ON %s (x, y)", lines_table_name(table)), get_rel_name(table));
 }
@@ -81,7 +81,7 @@ lines_table_index(Relation mesh)
 void
 lines_table_index_made(Relation mesh)
 {
-	Oid			table = mesh_lines_table(mesh, MESH_WRITE);
+	Oid			table = mesh_rows_table(mesh, MESH_LINES, MESH_WRITE);
 	char	   *name = makeObjectName(get_rel_name(table), "made", "idx");
 
 	if (object_ownercheck(RelationRelationId, table, GetUserId()) &&
@@ -94,7 +94,7 @@ lines_table_index_made(Relation mesh)
 Oid
 lines_table_require(Relation mesh, MeshAccess access)
 {
-	Oid			table = mesh_lines_table(mesh, access);
+	Oid			table = mesh_rows_table(mesh, MESH_LINES, access);
 
 	if (!OidIsValid(table))
 		ereport(ERROR,

@@ -36,7 +36,6 @@
 #include "utils/lsyscache.h"
 #include "utils/syscache.h"
 
-#include "pg/mesh/levels_table.h"
 #include "pg/mesh/mesh.h"
 #include "pg/mesh/mesh_access.h"
 #include "pg/port/port.h"
@@ -206,11 +205,13 @@ typedef struct SideTable
 } SideTable;
 
 static const SideTable vertex_side = {VERTEX_TABLE_SUFFIX, is_vertex_table, "vertex table"};
-static const SideTable lines_side = {LINES_TABLE_SUFFIX, is_lines_table, "table of lines"};
-static const SideTable regions_side = {REGIONS_TABLE_SUFFIX, is_regions_table, "table of regions"};
-static const SideTable thinning_side = {THINNING_TABLE_SUFFIX, is_thinning_table, "table of its thinning"};
-static const SideTable steps_side = {STEPS_TABLE_SUFFIX, is_steps_table, "table of steps"};
-static const SideTable levels_side = {LEVELS_TABLE_SUFFIX, is_levels_table, "table of levels"};
+static const SideTable row_sides[] = {
+	[MESH_LINES] = {LINES_TABLE_SUFFIX, is_lines_table, "table of lines"},
+	[MESH_REGIONS] = {REGIONS_TABLE_SUFFIX, is_regions_table, "table of regions"},
+	[MESH_LEVELS] = {LEVELS_TABLE_SUFFIX, is_levels_table, "table of levels"},
+	[MESH_THINNING] = {THINNING_TABLE_SUFFIX, is_thinning_table, "table of its thinning"},
+	[MESH_STEPS] = {STEPS_TABLE_SUFFIX, is_steps_table, "table of steps"}
+};
 
 /* Such a table of a mesh, found by its name alone; InvalidOid if there is none. */
 static Oid
@@ -246,18 +247,11 @@ mesh_find_vertex_table(Oid mesh)
 	return find_side_table(mesh, &vertex_side, &(bool) {false});
 }
 
-/* The same for the table of its regions, or of its lines. */
+/* The same for a table of rows. */
 Oid
-mesh_find_rows_table(Oid mesh, bool of_regions)
+mesh_find_rows_table(Oid mesh, SideRows rows)
 {
-	return find_side_table(mesh, of_regions ? &regions_side : &lines_side, &(bool) {false});
-}
-
-/* ... and for that of its levels. */
-Oid
-mesh_find_levels_table(Oid mesh)
-{
-	return find_side_table(mesh, &levels_side, &(bool) {false});
+	return find_side_table(mesh, &row_sides[rows], &(bool) {false});
 }
 
 /* The mesh whose simplex table or vertex table this is; InvalidOid if none. */
@@ -303,10 +297,14 @@ may_bind(Relation mesh, Oid relid, MeshAccess access)
 		object_ownercheck(RelationRelationId, RelationGetRelid(mesh), GetUserId());
 }
 
-/* A table of rows, not pages, that the mesh may have, locked and checked. */
-static Oid
-row_table(Relation mesh, const SideTable *side, MeshAccess access)
+/*
+ * A table of rows, not pages, that the mesh may have, locked and checked; InvalidOid if there is none. A
+ * writer binds it if it is not bound.
+ */
+Oid
+mesh_rows_table(Relation mesh, SideRows rows, MeshAccess access)
 {
+	const SideTable *side = &row_sides[rows];
 	bool		bound;
 	Relation	rel = open_side_table(mesh, side, access, &bound);
 	Oid			relid;
@@ -319,44 +317,6 @@ row_table(Relation mesh, const SideTable *side, MeshAccess access)
 		mesh_bind_table(RelationGetRelid(mesh), relid);
 	relation_close(rel, NoLock);
 	return relid;
-}
-
-/*
- * The table of the mesh's lines, locked and checked; InvalidOid if there is none. A writer binds it
- * if it is not bound.
- */
-Oid
-mesh_lines_table(Relation mesh, MeshAccess access)
-{
-	return row_table(mesh, &lines_side, access);
-}
-
-/* The same for the table of its regions, ... */
-Oid
-mesh_regions_table(Relation mesh, MeshAccess access)
-{
-	return row_table(mesh, &regions_side, access);
-}
-
-/* ... for that of its levels, ... */
-Oid
-mesh_levels_table(Relation mesh, MeshAccess access)
-{
-	return row_table(mesh, &levels_side, access);
-}
-
-/* ... and for the one that says how it was thinned. */
-Oid
-mesh_thinning_table(Relation mesh, MeshAccess access)
-{
-	return row_table(mesh, &thinning_side, access);
-}
-
-/* The same for the table of steps of solutions. */
-Oid
-mesh_steps_table(Relation mesh, MeshAccess access)
-{
-	return row_table(mesh, &steps_side, access);
 }
 
 /* The same for the table of its vertex pages, which must be there. */
@@ -380,11 +340,8 @@ mesh_vertex_table(Relation mesh, MeshAccess access)
 	if (!bound && may_bind(mesh, relid, access))
 	{
 		mesh_bind_table(RelationGetRelid(mesh), relid);
-		(void) mesh_lines_table(mesh, access);
-		(void) mesh_regions_table(mesh, access);
-		(void) mesh_thinning_table(mesh, access);
-		(void) mesh_steps_table(mesh, access);
-		levels_bind(mesh);
+		for (int i = 0; i < lengthof(row_sides); i++)
+			(void) mesh_rows_table(mesh, (SideRows) i, access);
 		if (on_restored != NULL)
 			on_restored(mesh);
 	}

@@ -35,6 +35,16 @@ typedef enum MeshAccess
 	MESH_MOVE					/* move the same rows, for a user who may VACUUM */
 } MeshAccess;
 
+/* Tables of rows, not pages, that a mesh may have. */
+typedef enum SideRows
+{
+	MESH_LINES,
+	MESH_REGIONS,
+	MESH_LEVELS,
+	MESH_THINNING,
+	MESH_STEPS
+} SideRows;
+
 /* Locks of the session on both tables. */
 typedef struct MeshLocks
 {
@@ -50,16 +60,11 @@ extern void mesh_unlock_for_session(MeshLocks *locks);
 extern Oid	mesh_of_table(Oid relid);
 extern Oid	mesh_table_owner(Oid relid);
 extern Oid	mesh_find_vertex_table(Oid mesh);
-extern Oid	mesh_find_rows_table(Oid mesh, bool of_regions);
-extern Oid	mesh_find_levels_table(Oid mesh);
+extern Oid	mesh_find_rows_table(Oid mesh, SideRows rows);
 extern Oid	mesh_vertex_table(Relation mesh, MeshAccess access);
 extern void mesh_bind_object(Oid class, Oid object, Oid mesh);
 extern void mesh_bind_table(Oid mesh, Oid table);
-extern Oid	mesh_lines_table(Relation mesh, MeshAccess access);
-extern Oid	mesh_regions_table(Relation mesh, MeshAccess access);
-extern Oid	mesh_thinning_table(Relation mesh, MeshAccess access);
-extern Oid	mesh_steps_table(Relation mesh, MeshAccess access);
-extern Oid	mesh_levels_table(Relation mesh, MeshAccess access);
+extern Oid	mesh_rows_table(Relation mesh, SideRows rows, MeshAccess access);
 extern Oid	mesh_of_trigger(Oid trigger);
 extern void mesh_bind_trigger(Oid mesh, Oid trigger);
 extern void mesh_tell_of_restored(void (*tell) (Relation mesh));

@@ -32,7 +32,7 @@ regions_table_make(Relation mesh)
 		.options = "number WITH OPTIONS NOT NULL, PRIMARY KEY (region, part)",
 		.contents = "regions",.maker = "abacus_region()",.reader = "abacus_regions()"
 	};
-	Oid			table = mesh_regions_table(mesh, MESH_WRITE);
+	Oid			table = mesh_rows_table(mesh, MESH_REGIONS, MESH_WRITE);
 
 	return OidIsValid(table) ? table : side_table_make(mesh, &regions);
 }
@@ -41,7 +41,7 @@ regions_table_make(Relation mesh)
 char *
 regions_table_require(Relation mesh, MeshAccess access)
 {
-	Oid			table = mesh_regions_table(mesh, access);
+	Oid			table = mesh_rows_table(mesh, MESH_REGIONS, access);
 
 	if (!OidIsValid(table))
 		ereport(ERROR,
@@ -207,7 +207,7 @@ struct RegionNames
 bool
 region_names_may_read(Oid mesh, Oid user)
 {
-	Oid			table = mesh_find_rows_table(mesh, true);
+	Oid			table = mesh_find_rows_table(mesh, MESH_REGIONS);
 
 	return OidIsValid(table) && pg_class_aclcheck(table, user, ACL_SELECT) == ACLCHECK_OK &&
 		check_enable_rls(table, user, true) != RLS_ENABLED;

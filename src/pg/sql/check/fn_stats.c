@@ -18,6 +18,7 @@
 #include "abacus/octree.h"
 #include "pg/base/sql_function.h"
 #include "pg/host/progress.h"
+#include "pg/levels/levels_table.h"
 #include "pg/mesh/mesh_cache.h"
 #include "pg/mesh/reader.h"
 #include "pg/sql/rows/result.h"
@@ -192,6 +193,20 @@ put_counts(Figures *figures, const abacus_facts *facts)
 	put_srid(figures, &facts->form);
 }
 
+/* Of the levels that the user may read. */
+static void
+put_levels(Figures *figures, Oid mesh, uint64 stamp)
+{
+	Level	   *levels;
+	int			count = levels_read_if_allowed(mesh, &levels);
+
+	if (count == 0)
+		return;
+	put_figure(figures, "levels", count, "coarser meshes beside it, see abacus_levels()");
+	put_figure(figures, "levels_old", levels_count_old(levels, count, stamp),
+			   "levels made before the last change of the mesh: abacus_levels_refresh() makes them anew");
+}
+
 /*
  * A notice if the domain of a mesh does not fit its points and abacus_build() would choose another
  * one. A mesh that cannot be changed gets none.
@@ -252,6 +267,7 @@ abacus_sql_stats(PG_FUNCTION_ARGS)
 	else
 	{
 		put_counts(&figures, &reader->header.facts);
+		put_levels(&figures, mesh, reader->header.stamp);
 		put_sizes(&figures, reader, vertices);
 	}
 	put_counters(&figures, &reader->header.counters, reader->header.facts.form.type, false);

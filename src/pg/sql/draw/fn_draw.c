@@ -17,6 +17,7 @@
 #include "pg/mesh/shape.h"
 #include "pg/sql/arguments/attribute.h"
 #include "pg/sql/arguments/extent_arguments.h"
+#include "pg/sql/arguments/level_argument.h"
 #include "pg/sql/arguments/units.h"
 #include "pg/sql/arguments/word.h"
 #include "pg/sql/draw/drawing.h"
@@ -53,7 +54,8 @@ enum
 	DRAW_LIGHT = DRAW_STYLE + STYLE_ARGUMENTS,
 	DRAW_WITHIN,
 	DRAW_REGIONS,
-	DRAW_LINES
+	DRAW_LINES,
+	DRAW_MAX_ERROR
 };
 
 /* Arguments of abacus_draw_section */
@@ -216,11 +218,16 @@ tell_blank(const Reader *reader, const abacus_drawing *drawing, const char *cell
  * upper float8[], attribute text, edges boolean, exaggeration float8,
  * max_edge float8, range float8[], ramp text, contours float8, legend text,
  * scale_bar text, transparent boolean, light float8[], within text,
- * regions boolean, lines boolean) -> bytea
+ * regions boolean, lines boolean, max_error float8) -> bytea
  */
 Datum
 abacus_sql_draw(PG_FUNCTION_ARGS)
 {
+	static const LevelArguments level = {
+		.mesh = DRAW_MESH,.attribute = DRAW_ATTRIBUTE,.within = DRAW_WITHIN,.regions = DRAW_REGIONS,
+		.max_error = DRAW_MAX_ERROR,.pixel_error = -1
+	};
+	Oid			mesh;
 	Reader	   *reader;
 	Host	   *host;
 	abacus_drawing drawing = {0};
@@ -228,7 +235,8 @@ abacus_sql_draw(PG_FUNCTION_ARGS)
 
 	if (PG_ARGISNULL(DRAW_MESH))
 		PG_RETURN_NULL();
-	reader = open_drawn(PG_GETARG_OID(DRAW_MESH));
+	mesh = level_argument(fcinfo, &level);
+	reader = open_drawn(mesh);
 	host = reader->host;
 	header_require_dimension(&reader->header.facts.form, 2, "Use abacus_draw_section for a cut through it.");
 	drawing.width = drawing_pixels(fcinfo, DRAW_WIDTH, 1024, "width");
@@ -236,7 +244,7 @@ abacus_sql_draw(PG_FUNCTION_ARGS)
 	drawing.attribute = attribute_or_label(fcinfo, DRAW_ATTRIBUTE, abacus_names_of(&reader->header));
 	drawing.edges = PG_ARGISNULL(DRAW_EDGES) || PG_GETARG_BOOL(DRAW_EDGES);
 	drawing.exaggeration = drawing_factor(fcinfo, DRAW_EXAGGERATION, "exaggeration");
-	extent_arguments(fcinfo, DRAW_MAX_EDGE, DRAW_WITHIN, PG_GETARG_OID(DRAW_MESH), &reader->header, reader->host,
+	extent_arguments(fcinfo, DRAW_MAX_EDGE, DRAW_WITHIN, mesh, &reader->header, reader->host,
 					 &drawing.extent);
 	drawing_range(fcinfo, DRAW_RANGE, &drawing);
 	style(fcinfo, DRAW_STYLE, &drawing);

@@ -15,11 +15,13 @@
 #include "pg/base/settings.h"
 #include "pg/base/sql_function.h"
 #include "pg/host/guard.h"
+#include "pg/levels/levels_table.h"
 #include "pg/mesh/reader.h"
 #include "pg/mesh/regions_table.h"
 #include "pg/mesh/shape.h"
 #include "pg/sql/arguments/attribute.h"
 #include "pg/sql/arguments/extent_arguments.h"
+#include "pg/sql/arguments/level_argument.h"
 #include "pg/sql/draw/drawing.h"
 #include "pg/sql/draw/tile_lines.h"
 
@@ -53,7 +55,9 @@ enum
 	PICTURE_CONTOURS,
 	PICTURE_WITHIN,
 	PICTURE_REGIONS,
-	PICTURE_LINES
+	PICTURE_LINES,
+	PICTURE_MAX_ERROR,
+	PICTURE_PIXEL_ERROR
 };
 
 /* ... of abacus_tile_vector */
@@ -62,7 +66,9 @@ enum
 	VECTOR_ATTRIBUTE = TILE_ARGUMENTS,
 	VECTOR_CONTOURS,
 	VECTOR_MAX_EDGE,
-	VECTOR_WITHIN
+	VECTOR_WITHIN,
+	VECTOR_MAX_ERROR,
+	VECTOR_PIXEL_ERROR
 };
 
 /* ... of abacus_tile_terrain */
@@ -72,8 +78,26 @@ enum
 	TERRAIN_ATTRIBUTE,
 	TERRAIN_MAX_EDGE,
 	TERRAIN_FILL,
-	TERRAIN_WITHIN
+	TERRAIN_WITHIN,
+	TERRAIN_MAX_ERROR,
+	TERRAIN_PIXEL_ERROR
 };
+
+static const LevelArguments picture_level = {
+	.mesh = TILE_MESH,.attribute = PICTURE_ATTRIBUTE,.within = PICTURE_WITHIN,.regions = PICTURE_REGIONS,
+	.max_error = PICTURE_MAX_ERROR,.pixel_error = PICTURE_PIXEL_ERROR
+};
+static const LevelArguments vector_level = {
+	.mesh = TILE_MESH,.attribute = VECTOR_ATTRIBUTE,.within = VECTOR_WITHIN,.regions = -1,
+	.max_error = VECTOR_MAX_ERROR,.pixel_error = VECTOR_PIXEL_ERROR
+};
+static const LevelArguments terrain_level = {
+	.mesh = TILE_MESH,.attribute = TERRAIN_ATTRIBUTE,.within = TERRAIN_WITHIN,.regions = -1,
+	.max_error = TERRAIN_MAX_ERROR,.pixel_error = TERRAIN_PIXEL_ERROR
+};
+
+/* Pixels of a tile of which no size is given, as those of vectors */
+#define TILE_SIZE 256
 
 /* More pixels do not make a tile. */
 #define MAX_TILE_SIZE 1024
@@ -141,9 +165,58 @@ tile_world(FunctionCallInfo fcinfo, const abacus_form *form, abacus_tile *tile)
 	tile->side = 2 * HALF_WORLD;
 }
 
-/* Opens the mesh of a tile; NULL if it, or the tile, is NULL. */
+/*
+ * The length on the ground of a pixel at the centre of a tile, of so many a side. On a map of its own that is
+ * its length there; Web Mercator shows lengths enlarged by the secant of the latitude.
+ */
+static double
+ground_pixel(FunctionCallInfo fcinfo, const abacus_tile *tile, int32 size)
+{
+	double		side = ldexp(tile->side, -tile->zoom);
+	double		north = HALF_WORLD - (tile->y + 0.5) * side;
+
+	if (!PG_ARGISNULL(TILE_WORLD))
+		return side / size;
+	return side / size / cosh(north / (HALF_WORLD / M_PI));
+}
+
 static Reader *
-tile_begin(FunctionCallInfo fcinfo, abacus_tile *tile, abacus_tile_memory *memory)
+open_plane(Oid mesh)
+{
+	Reader	   *reader = reader_open(mesh, CurrentMemoryContext);
+
+	header_require_dimension(&reader->header.facts.form, 2, "Use a mesh in the plane.");
+	return reader;
+}
+
+/* Opens the level of the mesh that is fine enough for the tile. */
+static Reader *
+open_level(FunctionCallInfo fcinfo, Reader *full, const abacus_tile *tile, const LevelArguments *arguments, int32 size)
+{
+	Oid			level = level_of_pixel(fcinfo, arguments, ground_pixel(fcinfo, tile, size));
+
+	if (level == mesh_pages(full->host)->mesh)
+		return full;
+	host_release(full->host);
+	host_destroy(full->host);
+	return open_plane(level);
+}
+
+static int32
+tile_size(FunctionCallInfo fcinfo, int argument)
+{
+	int32		size = PG_ARGISNULL(argument) ? TILE_SIZE : PG_GETARG_INT32(argument);
+
+	if (size < 1 || size > MAX_TILE_SIZE)
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+				 errmsg("size must be between 1 and %d pixels, not %d", MAX_TILE_SIZE, size)));
+	return size;
+}
+
+/* Opens the mesh of a tile, whose size is an argument or -1; NULL if it, or the tile, is NULL. */
+static Reader *
+tile_begin(FunctionCallInfo fcinfo, const LevelArguments *level, int size, abacus_tile *tile, abacus_tile_memory *memory)
 {
 	Reader	   *reader;
 
@@ -151,27 +224,14 @@ tile_begin(FunctionCallInfo fcinfo, abacus_tile *tile, abacus_tile_memory *memor
 		if (PG_ARGISNULL(i))
 			return NULL;
 	memset(tile, 0, sizeof(*tile));
-	reader = reader_open(PG_GETARG_OID(TILE_MESH), CurrentMemoryContext);
-	header_require_dimension(&reader->header.facts.form, 2, "Use a mesh in the plane.");
+	reader = open_plane(PG_GETARG_OID(TILE_MESH));
 	tile_world(fcinfo, &reader->header.facts.form, tile);
 	tile->zoom = PG_GETARG_INT32(TILE_ZOOM);
 	tile->x = PG_GETARG_INT32(TILE_X);
 	tile->y = PG_GETARG_INT32(TILE_Y);
 	memory->sort = setting_query_sort_bytes();
 	memory->cache = setting_cache_bytes();
-	return reader;
-}
-
-static int32
-tile_size(FunctionCallInfo fcinfo, int argument)
-{
-	int32		size = PG_ARGISNULL(argument) ? 256 : PG_GETARG_INT32(argument);
-
-	if (size < 1 || size > MAX_TILE_SIZE)
-		ereport(ERROR,
-				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
-				 errmsg("size must be between 1 and %d pixels, not %d", MAX_TILE_SIZE, size)));
-	return size;
+	return open_level(fcinfo, reader, tile, level, size < 0 ? TILE_SIZE : tile_size(fcinfo, size));
 }
 
 /* An attribute by its name; if not given, the only one, or -1 if the mesh has none. */
@@ -187,7 +247,8 @@ tile_attribute(FunctionCallInfo fcinfo, int argument, abacus_names names)
  * abacus_tile_picture(mesh regclass, z int, x int, y int, srid int,
  * world float8[], size int,
  * attribute text, range float8[], edges boolean, exaggeration float8,
- * max_edge float8, ramp text, contours float8, within text, regions boolean, lines boolean) -> bytea
+ * max_edge float8, ramp text, contours float8, within text, regions boolean, lines boolean,
+ * max_error float8, pixel_error float8) -> bytea
  */
 Datum
 abacus_sql_tile_picture(PG_FUNCTION_ARGS)
@@ -196,7 +257,7 @@ abacus_sql_tile_picture(PG_FUNCTION_ARGS)
 	abacus_tile_memory memory;
 	abacus_drawing drawing = {0};
 	abacus_picture picture = {0};
-	Reader	   *reader = tile_begin(fcinfo, &tile, &memory);
+	Reader	   *reader = tile_begin(fcinfo, &picture_level, PICTURE_SIZE, &tile, &memory);
 	Host	   *host;
 
 	if (reader == NULL)
@@ -207,7 +268,7 @@ abacus_sql_tile_picture(PG_FUNCTION_ARGS)
 	drawing_range(fcinfo, PICTURE_RANGE, &drawing);
 	drawing.edges = PG_ARGISNULL(PICTURE_EDGES) || PG_GETARG_BOOL(PICTURE_EDGES);
 	drawing.exaggeration = drawing_factor(fcinfo, PICTURE_EXAGGERATION, "exaggeration");
-	extent_arguments(fcinfo, PICTURE_MAX_EDGE, PICTURE_WITHIN, PG_GETARG_OID(TILE_MESH), &reader->header, reader->host,
+	extent_arguments(fcinfo, PICTURE_MAX_EDGE, PICTURE_WITHIN, mesh_pages(reader->host)->mesh, &reader->header, reader->host,
 					 &drawing.extent);
 	drawing_ramp(fcinfo, PICTURE_RAMP, &drawing);
 	drawing_contours(fcinfo, PICTURE_CONTOURS, &drawing);
@@ -260,7 +321,7 @@ find_name(void *context, uint32_t region, const char **name)
 /*
  * abacus_tile_vector(mesh regclass, z int, x int, y int, srid int,
  * world float8[], attribute text,
- * contours float8, max_edge float8, within text) -> bytea
+ * contours float8, max_edge float8, within text, max_error float8, pixel_error float8) -> bytea
  */
 Datum
 abacus_sql_tile_vector(PG_FUNCTION_ARGS)
@@ -273,7 +334,7 @@ abacus_sql_tile_vector(PG_FUNCTION_ARGS)
 	abacus_picture bytes = {0};
 	abacus_picture lines = {0};
 	int32		has_triangles;
-	Reader	   *reader = tile_begin(fcinfo, &tile, &memory);
+	Reader	   *reader = tile_begin(fcinfo, &vector_level, -1, &tile, &memory);
 	Host	   *host;
 
 	if (reader == NULL)
@@ -281,12 +342,12 @@ abacus_sql_tile_vector(PG_FUNCTION_ARGS)
 	host = reader->host;
 	kind.attribute = tile_attribute(fcinfo, VECTOR_ATTRIBUTE, abacus_names_of(&reader->header));
 	kind.contour_interval = drawing_interval(fcinfo, VECTOR_CONTOURS);
-	extent_arguments(fcinfo, VECTOR_MAX_EDGE, VECTOR_WITHIN, PG_GETARG_OID(TILE_MESH), &reader->header, reader->host,
+	extent_arguments(fcinfo, VECTOR_MAX_EDGE, VECTOR_WITHIN, mesh_pages(reader->host)->mesh, &reader->header, reader->host,
 					 &kind.extent);
 	names.host = host;
-	names.regions = read_names(PG_GETARG_OID(TILE_MESH), &reader->header.facts);
+	names.regions = read_names(mesh_pages(reader->host)->mesh, &reader->header.facts);
 	words.region_name = names.regions == NULL ? NULL : find_name;
-	words.lines_apart = tile_lines_may_read(PG_GETARG_OID(TILE_MESH), &reader->header.facts.census);
+	words.lines_apart = tile_lines_may_read(mesh_pages(reader->host)->mesh, &reader->header.facts.census);
 	host_run(host, abacus_tile_vector, &host->table, &reader->header.facts, &tile, &kind, &words, &memory,
 			 &bytes, &has_triangles);
 	if (has_triangles && words.lines_apart && !tile_lines_layer(reader, &tile, &kind.extent, &lines))
@@ -302,7 +363,8 @@ abacus_sql_tile_vector(PG_FUNCTION_ARGS)
 /*
  * abacus_tile_terrain(mesh regclass, z int, x int, y int, srid int,
  * world float8[], size int,
- * attribute text, max_edge float8, fill float8, within text) -> bytea
+ * attribute text, max_edge float8, fill float8, within text, max_error float8,
+ * pixel_error float8) -> bytea
  */
 Datum
 abacus_sql_tile_terrain(PG_FUNCTION_ARGS)
@@ -311,7 +373,7 @@ abacus_sql_tile_terrain(PG_FUNCTION_ARGS)
 	abacus_tile_memory memory;
 	abacus_tile_terrain_kind kind = {0};
 	abacus_picture picture = {0};
-	Reader	   *reader = tile_begin(fcinfo, &tile, &memory);
+	Reader	   *reader = tile_begin(fcinfo, &terrain_level, TERRAIN_SIZE, &tile, &memory);
 	Host	   *host;
 
 	if (reader == NULL)
@@ -320,7 +382,7 @@ abacus_sql_tile_terrain(PG_FUNCTION_ARGS)
 	header_require_attributes(&reader->header.facts);
 	kind.width = tile_size(fcinfo, TERRAIN_SIZE);
 	kind.attribute = (uint32) tile_attribute(fcinfo, TERRAIN_ATTRIBUTE, abacus_names_of(&reader->header));
-	extent_arguments(fcinfo, TERRAIN_MAX_EDGE, TERRAIN_WITHIN, PG_GETARG_OID(TILE_MESH), &reader->header, reader->host,
+	extent_arguments(fcinfo, TERRAIN_MAX_EDGE, TERRAIN_WITHIN, mesh_pages(reader->host)->mesh, &reader->header, reader->host,
 					 &kind.extent);
 	kind.fill = PG_ARGISNULL(TERRAIN_FILL) ? 0 : PG_GETARG_FLOAT8(TERRAIN_FILL);
 	if (!isfinite(kind.fill))
@@ -339,8 +401,13 @@ abacus_sql_tile_etag(PG_FUNCTION_ARGS)
 {
 	Reader	   *reader = reader_open(PG_GETARG_OID(0), CurrentMemoryContext);
 	char	   *stamp = psprintf("%016llx", (unsigned long long) reader->header.stamp);
+	Level	   *levels;
+	int			count;
 
 	host_release(reader->host);
 	host_destroy(reader->host);
+	count = levels_read_if_allowed(PG_GETARG_OID(0), &levels);
+	if (count > 0)
+		stamp = psprintf("%s-%08x", stamp, levels_hash(levels, count));
 	PG_RETURN_TEXT_P(cstring_to_text(stamp));
 }

@@ -39,7 +39,8 @@ enum
 	TILES_SIZE,
 	TILES_WITHIN,
 	TILES_REGIONS,
-	TILES_LINES
+	TILES_LINES,
+	TILES_PIXEL_ERROR
 };
 
 /* The parts of the functions as SQL; what is not given is NULL. */
@@ -61,6 +62,7 @@ typedef struct Tiles
 	const char *within;
 	const char *regions;
 	const char *lines;
+	const char *pixel_error;
 	const char *srid;
 	const char *fill;			/* the height outside the mesh */
 	int32		size;
@@ -193,9 +195,9 @@ make_with_etag(const Tiles *tiles, const char *suffix, const char *body, const c
 static const char *
 vector_body(const Tiles *tiles, const char *contours)
 {
-	return psprintf("%s.abacus_tile_vector(%s, z, x, y, %s, %s, %s, %s, %s, %s)", tiles->extension,
+	return psprintf("%s.abacus_tile_vector(%s, z, x, y, %s, %s, %s, %s, %s, %s, pixel_error => %s)", tiles->extension,
 					tiles->mesh, tiles->srid, tiles->world, tiles->attribute, contours, tiles->max_edge,
-					tiles->within);
+					tiles->within, tiles->pixel_error);
 }
 
 static void
@@ -212,10 +214,10 @@ make_all(const Tiles *tiles, bool has_attribute)
 		ramp = psprintf("coalesce(query_params ->> 'ramp', %s)", tiles->ramp);
 	}
 	make_with_etag(tiles, "picture",
-				   psprintf("%s.abacus_tile_picture(%s, z, x, y, %s, %s, %d, %s, %s, %s, %s, %s, %s, %s, %s, %s, %s)",
+				   psprintf("%s.abacus_tile_picture(%s, z, x, y, %s, %s, %d, %s, %s, %s, %s, %s, %s, %s, %s, %s, %s, pixel_error => %s)",
 							tiles->extension, tiles->mesh, tiles->srid, tiles->world, tiles->size,
 							tiles->attribute, tiles->range, tiles->edges, tiles->exaggeration,
-							tiles->max_edge, ramp, contours, tiles->within, regions, lines),
+							tiles->max_edge, ramp, contours, tiles->within, regions, lines, tiles->pixel_error),
 				   "{\"content_type\": \"image/png\", \"description\": \"A mesh as pictures\"}");
 	make_with_etag(tiles, "vector", vector_body(tiles, contours),
 				   "{\"content_type\": \"application/x-protobuf\", \"description\": \"A mesh: triangles, vertices, contours, fixed, hull\"}");
@@ -224,9 +226,10 @@ make_all(const Tiles *tiles, bool has_attribute)
 		 vector_body(tiles, "contours"), "A mesh: triangles, vertices, contours, fixed, hull");
 	if (has_attribute)
 		make_with_etag(tiles, "terrain",
-					   psprintf("%s.abacus_tile_terrain(%s, z, x, y, %s, %s, %d, %s, %s, %s, %s)",
+					   psprintf("%s.abacus_tile_terrain(%s, z, x, y, %s, %s, %d, %s, %s, %s, %s, pixel_error => %s)",
 								tiles->extension, tiles->mesh, tiles->srid, tiles->world, tiles->size,
-								tiles->attribute, tiles->max_edge, tiles->fill, tiles->within),
+								tiles->attribute, tiles->max_edge, tiles->fill, tiles->within,
+								tiles->pixel_error),
 					   "{\"content_type\": \"image/png\", \"encoding\": \"terrarium\", \"description\": \"A mesh as heights\"}");
 }
 
@@ -234,16 +237,16 @@ make_all(const Tiles *tiles, bool has_attribute)
 static void
 try_arguments(const Tiles *tiles)
 {
-	run(psprintf("SELECT %s.abacus_tile_picture(%s, 30, 0, 0, %s, %s, %d, %s, %s, %s, %s, %s, %s, %s, %s, %s, %s)",
+	run(psprintf("SELECT %s.abacus_tile_picture(%s, 30, 0, 0, %s, %s, %d, %s, %s, %s, %s, %s, %s, %s, %s, %s, %s, pixel_error => %s)",
 				 tiles->extension, tiles->mesh, tiles->srid, tiles->world, tiles->size, tiles->attribute,
 				 tiles->range, tiles->edges, tiles->exaggeration, tiles->max_edge, tiles->ramp,
-				 tiles->contours, tiles->within, tiles->regions, tiles->lines));
+				 tiles->contours, tiles->within, tiles->regions, tiles->lines, tiles->pixel_error));
 }
 
 /*
  * abacus_tiles(mesh regclass, srid int, world float8[], attribute text, range float8[],
  * contours float8, ramp text, exaggeration float8, edges boolean, max_edge float8,
- * size int, within text, regions boolean, lines boolean) -> setof regprocedure
+ * size int, within text, regions boolean, lines boolean, pixel_error float8) -> setof regprocedure
  */
 Datum
 abacus_sql_tiles(PG_FUNCTION_ARGS)
@@ -252,8 +255,8 @@ abacus_sql_tiles(PG_FUNCTION_ARGS)
 	Reader	   *reader;
 	Oid			mesh;
 	bool		has_attribute;
-	const char *numbers[3];
-	const int	number[3] = {TILES_CONTOURS, TILES_EXAGGERATION, TILES_MAX_EDGE};
+	const char *numbers[4];
+	const int	number[4] = {TILES_CONTOURS, TILES_EXAGGERATION, TILES_MAX_EDGE, TILES_PIXEL_ERROR};
 
 	InitMaterializedSRF(fcinfo, MAT_SRF_USE_EXPECTED_DESC);
 	if (PG_ARGISNULL(TILES_MESH))
@@ -273,12 +276,13 @@ abacus_sql_tiles(PG_FUNCTION_ARGS)
 	}
 	host_release(reader->host);
 	host_destroy(reader->host);
-	for (int i = 0; i < 3; i++)
+	for (int i = 0; i < lengthof(number); i++)
 		numbers[i] = PG_ARGISNULL(number[i]) ? "NULL::float8" :
 			number_literal(PG_GETARG_FLOAT8(number[i]));
 	tiles.contours = numbers[0];
 	tiles.exaggeration = numbers[1];
 	tiles.max_edge = numbers[2];
+	tiles.pixel_error = numbers[3];
 	tiles.extension = quote_identifier(get_namespace_name(get_func_namespace(fcinfo->flinfo->fn_oid)));
 	tiles.schema = get_namespace_name(get_rel_namespace(mesh));
 	tiles.name = get_rel_name(mesh);

@@ -27,7 +27,7 @@ typedef struct TileEdges
 bool
 tile_lines_may_read(Oid mesh, const abacus_census *census)
 {
-	Oid			table = census->lines > 0 && census->lines_wait == 0 ? mesh_find_rows_table(mesh, false) : InvalidOid;
+	Oid			table = census->lines > 0 && census->lines_wait == 0 ? mesh_find_rows_table(mesh, MESH_LINES) : InvalidOid;
 
 	return OidIsValid(table) && pg_class_aclcheck(table, GetUserId(), ACL_SELECT) == ACLCHECK_OK &&
 		check_enable_rls(table, GetUserId(), true) != RLS_ENABLED;

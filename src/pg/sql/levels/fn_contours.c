@@ -22,6 +22,7 @@
 #include "pg/mesh/shape.h"
 #include "pg/sql/arguments/attribute.h"
 #include "pg/sql/arguments/extent_arguments.h"
+#include "pg/sql/arguments/level_argument.h"
 #include "pg/sql/arguments/missing.h"
 #include "pg/sql/arguments/window.h"
 #include "pg/sql/rows/answers.h"
@@ -41,7 +42,8 @@ enum
 	ARGUMENT_LOWER,
 	ARGUMENT_UPPER,
 	ARGUMENT_MAX_EDGE,
-	ARGUMENT_WITHIN
+	ARGUMENT_WITHIN,
+	ARGUMENT_MAX_ERROR
 };
 
 /* Columns */
@@ -267,12 +269,17 @@ level_arguments(FunctionCallInfo fcinfo, abacus_contouring *how)
 /*
  * abacus_contours(mesh regclass, level_interval float8, level_base float8, fixed_levels float8[],
  * polygonize bool, attribute text, lower float8[], upper float8[], max_edge float8,
- * within text)
+ * within text, max_error float8)
  *     -> id, value, closed, path
  */
 Datum
 abacus_sql_contours(PG_FUNCTION_ARGS)
 {
+	static const LevelArguments level = {
+		.mesh = ARGUMENT_MESH,.attribute = ARGUMENT_ATTRIBUTE,.within = ARGUMENT_WITHIN,.regions = -1,
+		.max_error = ARGUMENT_MAX_ERROR,.pixel_error = -1
+	};
+	Oid			mesh;
 	Answers		answers = {.set = (ReturnSetInfo *) fcinfo->resultinfo};
 	abacus_contouring how = {0};
 	abacus_window window = {0};
@@ -281,17 +288,18 @@ abacus_sql_contours(PG_FUNCTION_ARGS)
 	InitMaterializedSRF(fcinfo, 0);
 	if (PG_ARGISNULL(ARGUMENT_MESH))
 		PG_RETURN_NULL();
-	reader = reader_open(PG_GETARG_OID(ARGUMENT_MESH), CurrentMemoryContext);
+	mesh = level_argument(fcinfo, &level);
+	reader = reader_open(mesh, CurrentMemoryContext);
 	header_require_dimension(&reader->header.facts.form, 2,
 							 "Use abacus_isosurface for a mesh of dimension 3.");
 	level_arguments(fcinfo, &how);
 	how.bands = !PG_ARGISNULL(ARGUMENT_POLYGONIZE) && PG_GETARG_BOOL(ARGUMENT_POLYGONIZE);
 	how.attribute = attribute_argument(fcinfo, ARGUMENT_ATTRIBUTE, abacus_names_of(&reader->header));
-	extent_arguments(fcinfo, ARGUMENT_MAX_EDGE, ARGUMENT_WITHIN, PG_GETARG_OID(ARGUMENT_MESH),
+	extent_arguments(fcinfo, ARGUMENT_MAX_EDGE, ARGUMENT_WITHIN, mesh,
 					 &reader->header, reader->host, &how.extent);
 	window_arguments(fcinfo, ARGUMENT_LOWER, WINDOW_BOX, &reader->header.facts.form, &window);
 	answers.host = reader->host;
-	progress_begin(&reader->host->progress, PG_GETARG_OID(ARGUMENT_MESH));
+	progress_begin(&reader->host->progress, mesh);
 	if (how.bands != 0 && how.extent.area != NULL)
 		put_bands_within(reader, &window, &how, text_to_cstring(PG_GETARG_TEXT_PP(ARGUMENT_WITHIN)), &answers);
 	else

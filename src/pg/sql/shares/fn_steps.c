@@ -29,7 +29,7 @@ abacus_sql_steps(PG_FUNCTION_ARGS)
 
 	InitMaterializedSRF(fcinfo, 0);
 	mesh = mesh_table_open(PG_GETARG_OID(0), MESH_READ);
-	table = mesh_steps_table(mesh, MESH_READ);
+	table = mesh_rows_table(mesh, MESH_STEPS, MESH_READ);
 	table_close(mesh, NoLock);
 	if (!OidIsValid(table))
 		PG_RETURN_NULL();

@@ -35,7 +35,7 @@ make_table(Relation mesh)
 	Oid			table;
 
 	LockRelationOid(RelationGetRelid(mesh), ShareUpdateExclusiveLock);
-	table = mesh_steps_table(mesh, MESH_WRITE);
+	table = mesh_rows_table(mesh, MESH_STEPS, MESH_WRITE);
 	return OidIsValid(table) ? table : side_table_make(mesh, &steps);
 }
 
@@ -75,7 +75,7 @@ make_partition(Relation mesh, Oid table, const char *name, int64 step)
 char *
 steps_table_for(Relation mesh, int64 step)
 {
-	Oid			table = mesh_steps_table(mesh, MESH_WRITE);
+	Oid			table = mesh_rows_table(mesh, MESH_STEPS, MESH_WRITE);
 	char	   *partition;
 
 	if (!OidIsValid(table))

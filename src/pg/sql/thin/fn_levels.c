@@ -28,8 +28,8 @@
 #include "utils/snapmgr.h"
 
 #include "pg/base/sql_function.h"
+#include "pg/levels/levels_table.h"
 #include "pg/lines/named_rows.h"
-#include "pg/mesh/levels_table.h"
 #include "pg/mesh/lines_table.h"
 #include "pg/mesh/new_table.h"
 #include "pg/mesh/reader.h"
@@ -72,7 +72,7 @@ typedef struct Levels
 
 /* ---- Running as the owner ----------------------------------------------------------------- */
 
-/* The mesh and all beside it have one owner, whoever calls in his name. */
+/* The mesh and all beside it have one owner, also if a superuser calls. */
 static void
 begin_as_owner(Levels *levels, FunctionCallInfo fcinfo, Oid mesh)
 {
@@ -132,7 +132,7 @@ put_levels(FunctionCallInfo fcinfo, const Levels *called)
 
 	CommandCounterIncrement();
 	PushActiveSnapshot(GetLatestSnapshot());
-	count = levels_read(mesh_find_levels_table(called->mesh), MESH_WRITE, &levels);
+	count = levels_read(mesh_find_rows_table(called->mesh, MESH_LEVELS), MESH_WRITE, &levels);
 	for (int i = 0; i < count; i++)
 	{
 		bool		isnull[MADE_COLUMNS] = {false};
@@ -152,8 +152,14 @@ put_levels(FunctionCallInfo fcinfo, const Levels *called)
 static Datum *
 errors_argument(ArrayType *array, int *count)
 {
-	Datum	   *errors = shape_numbers(array, "errors", count);
+	Datum	   *errors;
 
+	if (ARR_NDIM(array) > 1 || array_contains_nulls(array))
+		ereport(ERROR,
+				(errcode(ERRCODE_NULL_VALUE_NOT_ALLOWED),
+				 errmsg("errors must be a one-dimensional array without NULLs"),
+				 errhint("Give the greatest error of each level, the finest level first.")));
+	errors = shape_numbers(array, "errors", count);
 	if (*count == 0)
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
@@ -221,7 +227,7 @@ static char *
 thinning_name(Oid mesh)
 {
 	Relation	rel = mesh_table_open(mesh, MESH_READ);
-	Oid			table = mesh_thinning_table(rel, MESH_READ);
+	Oid			table = mesh_rows_table(rel, MESH_THINNING, MESH_READ);
 
 	table_close(rel, NoLock);
 	if (!OidIsValid(table))
@@ -273,7 +279,7 @@ abacus_sql_levels(PG_FUNCTION_ARGS)
 	mesh = mesh_table_open(called.mesh, MESH_READ);
 	name = pstrdup(RelationGetRelationName(mesh));
 	schema = get_namespace_name(RelationGetNamespace(mesh));
-	if (OidIsValid(mesh_levels_table(mesh, MESH_READ)))
+	if (OidIsValid(mesh_rows_table(mesh, MESH_LEVELS, MESH_READ)))
 		ereport(ERROR,
 				(errcode(ERRCODE_DUPLICATE_TABLE),
 				 errmsg("mesh \"%s\" already has levels", name),
@@ -296,14 +302,14 @@ abacus_sql_levels(PG_FUNCTION_ARGS)
 static Oid
 lock_levels(const Levels *called, Level **levels, int *count)
 {
-	Oid			table = mesh_find_levels_table(called->mesh);
+	Oid			table = mesh_find_rows_table(called->mesh, MESH_LEVELS);
 	Relation	mesh;
 
 	/* at once in the strongest mode, so that two sessions do not wait for each other */
 	if (OidIsValid(table))
 		LockRelationOid(table, ShareRowExclusiveLock);
 	mesh = mesh_table_open(called->mesh, MESH_READ);
-	table = mesh_levels_table(mesh, MESH_WRITE);
+	table = mesh_rows_table(mesh, MESH_LEVELS, MESH_WRITE);
 	table_close(mesh, NoLock);
 	if (!OidIsValid(table))
 		ereport(ERROR,
@@ -337,8 +343,8 @@ replace_rows(const char *of, const char *by)
 static void
 replace_lines(Relation level, Relation fresh)
 {
-	Oid			by = mesh_lines_table(fresh, MESH_READ);
-	Oid			of = mesh_lines_table(level, MESH_WRITE);
+	Oid			by = mesh_rows_table(fresh, MESH_LINES, MESH_READ);
+	Oid			of = mesh_rows_table(level, MESH_LINES, MESH_WRITE);
 	bool		is_new = false;
 
 	if (!OidIsValid(by) && !OidIsValid(of))

@@ -74,7 +74,7 @@ value_at(int column, bool *isnull)
 bool
 thinning_table_read(Relation mesh, ThinningRow *row)
 {
-	Oid			table = mesh_thinning_table(mesh, MESH_WRITE);
+	Oid			table = mesh_rows_table(mesh, MESH_THINNING, MESH_WRITE);
 	MemoryContext caller = CurrentMemoryContext;
 	bool		is_there;
 	bool		isnull;
@@ -108,7 +108,7 @@ thinning_table_read(Relation mesh, ThinningRow *row)
 void
 thinning_table_finish(Relation mesh, double greatest)
 {
-	Oid			table = mesh_thinning_table(mesh, MESH_WRITE);
+	Oid			table = mesh_rows_table(mesh, MESH_THINNING, MESH_WRITE);
 	Oid			type = FLOAT8OID;
 	Datum		value = Float8GetDatum(greatest);
 

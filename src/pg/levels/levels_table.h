@@ -20,6 +20,8 @@ typedef struct Level
 extern Oid	levels_table_make(Relation mesh);
 extern int	levels_read(Oid table, MeshAccess access, Level **levels);
 extern int	levels_read_if_allowed(Oid mesh, Level **levels);
+extern uint32 levels_hash(const Level *levels, int count);
+extern int	levels_count_old(const Level *levels, int count, uint64 stamp);
 extern void levels_bind(Relation mesh);
 extern Oid	levels_choose(Oid mesh, double max_error, const char *attribute);
 

@@ -9,6 +9,7 @@
 #include <math.h>
 
 #include "access/table.h"
+#include "common/hashfn.h"
 #include "executor/spi.h"
 #include "miscadmin.h"
 #include "utils/acl.h"
@@ -16,7 +17,7 @@
 #include "utils/lsyscache.h"
 #include "utils/rls.h"
 
-#include "pg/mesh/levels_table.h"
+#include "pg/levels/levels_table.h"
 #include "pg/mesh/lines_table.h"
 #include "pg/mesh/new_table.h"
 #include "pg/port/port.h"
@@ -89,7 +90,7 @@ levels_read(Oid table, MeshAccess access, Level **levels)
 int
 levels_read_if_allowed(Oid mesh, Level **levels)
 {
-	Oid			table = mesh_find_levels_table(mesh);
+	Oid			table = mesh_find_rows_table(mesh, MESH_LEVELS);
 	Relation	rel;
 	int			count;
 
@@ -97,17 +98,47 @@ levels_read_if_allowed(Oid mesh, Level **levels)
 		check_enable_rls(table, GetUserId(), true) == RLS_ENABLED)
 		return 0;
 	rel = mesh_table_open(mesh, MESH_READ);
-	table = mesh_levels_table(rel, MESH_READ);
+	table = mesh_rows_table(rel, MESH_LEVELS, MESH_READ);
 	count = OidIsValid(table) ? levels_read(table, MESH_READ, levels) : 0;
 	table_close(rel, NoLock);
 	return count;
+}
+
+/* A hash that changes when a level is made or made anew. */
+uint32
+levels_hash(const Level *levels, int count)
+{
+	uint32		hash = (uint32) count;
+
+	for (int i = 0; i < count; i++)
+	{
+		const uint64 row[] = {
+			(uint64) levels[i].number, levels[i].mesh, (uint64) levels[i].stamp,
+			DatumGetUInt64(Float8GetDatum(levels[i].max_error))
+		};
+
+		hash = hash_combine(hash, DatumGetUInt32(hash_any((const unsigned char *) row, sizeof(row))));
+	}
+	return hash;
+}
+
+/* How many levels are of a mesh that had another stamp. */
+int
+levels_count_old(const Level *levels, int count, uint64 stamp)
+{
+	int			old = 0;
+
+	for (int i = 0; i < count; i++)
+		if ((uint64) levels[i].stamp != stamp)
+			old++;
+	return old;
 }
 
 /* Binds the levels of a restored mesh to it, and their table: those that the user owns. */
 void
 levels_bind(Relation mesh)
 {
-	Oid			table = mesh_levels_table(mesh, MESH_WRITE);
+	Oid			table = mesh_rows_table(mesh, MESH_LEVELS, MESH_WRITE);
 	Level	   *levels;
 	int			count = OidIsValid(table) ? levels_read(table, MESH_WRITE, &levels) : 0;
 
@@ -135,7 +166,7 @@ Oid
 levels_choose(Oid mesh, double max_error, const char *attribute)
 {
 	Relation	rel = mesh_table_open(mesh, MESH_READ);
-	Oid			table = mesh_levels_table(rel, MESH_READ);
+	Oid			table = mesh_rows_table(rel, MESH_LEVELS, MESH_READ);
 	const Level *chosen = NULL;
 	Level	   *levels;
 	int			count = OidIsValid(table) ? levels_read(table, MESH_READ, &levels) : 0;
