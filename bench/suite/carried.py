@@ -22,6 +22,7 @@ TILES = {
     "vector tile with contours": "abacus_tile_vector('mesh', {z}, {x}, {y}, contours => 20)",
     "tile of heights": "abacus_tile_terrain('mesh', {z}, {x}, {y})",
 }
+LEVELS = "{5,10,20,40,80,160}"  # metres; a pixel at zoom 14 has 6.6
 
 
 class Carried:
@@ -39,7 +40,9 @@ class Carried:
         server.query("VACUUM (FREEZE, ANALYZE) mesh")
         self.points = terrain
         self.windows()
-        self.tiles()
+        self.tiles("", "")
+        self.levels()
+        self.tiles(", of levels", ", pixel_error => 1")
         self.facets()
         self.file("PLY of {count} triangles", "mesh.ply", "--z", "height")
         server.drop("mesh", "mesh_vertices", "points")
@@ -85,14 +88,22 @@ class Carried:
         sample["pages"] = plan["Plans"][0]["Mesh Pages Read"]
         return sample
 
-    def tiles(self):
+    def levels(self):
+        """Made once, and made anew."""
+        for name, call in ("levels of detail", f"abacus_levels('mesh', '{LEVELS}')"), ("levels of detail, made anew", "abacus_levels_refresh('mesh')"):
+            with server.Session() as session:
+                sample = session.timed(f"SELECT sum(vertices) FROM {call}")
+            sample["answers"] = int(sample.pop("printed"))
+            self.record(name, [sample])
+
+    def tiles(self, which, choice):
         """A walk from zoom 0 to 14 over one place; a sample is a tile."""
         for name, call in TILES.items():
             samples = []
             with server.Session() as session:
                 for again in range(2):  # the first walk fills the server's cache
-                    samples = [self.tile(session, call, zoom) for zoom in range(15)]
-            self.record(f"{name}, zoom 0 to 14", samples)
+                    samples = [self.tile(session, call[:-1] + choice + ")", zoom) for zoom in range(15)]
+            self.record(f"{name}{which}, zoom 0 to 14", samples)
 
     def tile(self, session, call, zoom):
         lon, lat = MIDDLE

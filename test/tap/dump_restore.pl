@@ -48,6 +48,11 @@ SELECT abacus_constrain('fenced', 'VALUES (8, 1, 1), (8, 2, 4), (8, 3, 24), (8, 
 SELECT abacus_region('fenced', $$VALUES ('corner', 8)$$);
 SELECT abacus_publish('fenced', geometry => false);
 SELECT abacus_thin('field', 'thinned', 900, keep => 'border');
+SELECT abacus_triangulate('tiered', 'SELECT 100 * x + y, x, y, 10 * sin(x / 5.0) * cos(y / 7.0) AS height FROM generate_series(0, 30) AS x, generate_series(0, 30) AS y');
+SELECT abacus_levels('tiered', '{0.5,2}');
+ALTER TABLE tiered_level_2 RENAME TO coarse;
+ALTER TABLE tiered_level_2_vertices RENAME TO coarse_vertices;
+SELECT abacus_publish('tiered', geometry => false);
 GRANT USAGE ON SCHEMA abacus TO owner;
 SET ROLE owner;
 SELECT abacus_triangulate('s."My Mesh"', 'SELECT i, (i * 7919) % 101, (i * 104729) % 97, (i * 31) % 89 FROM generate_series(1, 3000) AS i', dimension => 3);
@@ -92,6 +97,25 @@ like($lines, qr/^7\|1\|0\|0\|0\|soft\|\n7\|2\|99\|9\|9\|soft\|\n/, 'a mesh with 
 sub thinning_of_mesh { return $node->safe_psql($_[0], q{SELECT * FROM thinned_thinning; SELECT count(*), sum(id) FROM abacus_vertices('thinned')}); }
 my $thinning = thinning_of_mesh('origin');
 like($thinning, qr/^public\.field\|-?\d+\|height\|900\|border\|\|[\d.]+\n/, 'a thinned mesh');
+
+# The levels of a mesh, and what is in them.
+sub levels_of_mesh
+{
+	return $node->safe_psql($_[0], q{SELECT level, max_error, greatest FROM tiered_levels ORDER BY level; SELECT value FROM abacus_stats('tiered') WHERE name = 'levels_old';
+		SELECT string_agg(v::text, ' ' ORDER BY id) FROM abacus_vertices('tiered_level_1') AS v; SELECT string_agg(v::text, ' ' ORDER BY id) FROM abacus_vertices(abacus_level('tiered', 2)) AS v;
+		SELECT count(*) FROM tiered_cells_2});
+}
+my $levels = levels_of_mesh('origin');
+like($levels, qr/^1\|0\.5\|0\.\d+\n2\|2\|1\.\d+\n0\n/, 'a mesh with levels');
+
+sub change_levels
+{
+	my ($database) = @_;
+	$node->safe_psql($database, q{SELECT abacus_insert('tiered', 'VALUES (-1, 15.5, 15.5, 30)')});
+	is($node->safe_psql($database, q{SELECT value FROM abacus_stats('tiered') WHERE name = 'levels_old'}), 2, 'levels are older than a changed mesh');
+	$node->safe_psql($database, q{SELECT abacus_levels_refresh('tiered')});
+	return levels_of_mesh($database);
+}
 
 sub vertex_table { return $_[0] =~ s/("?)$/_vertices$1/r; }
 
@@ -167,6 +191,10 @@ sub examine
 	is($node->safe_psql($database, q{SELECT abacus_unconstrain('fenced', 'VALUES (7)')}), 1, "$what: the line goes");
 	is($node->safe_psql($database, q{DROP TABLE fenced; SELECT concat(to_regclass('fenced_lines'), to_regclass('fenced_regions'), to_regclass('fenced_breaklines'), to_regclass('fenced_fixed_edges'))}), '',
 		"$what: dropping the mesh drops its lines and their views");
+	is(levels_of_mesh($database), $levels, "$what: a mesh with levels");
+	is(change_levels($database), $grown{levels}, "$what: made anew as in the origin");
+	is($node->safe_psql($database, q{DROP TABLE tiered; SELECT count(*) FROM pg_class WHERE relname ~ '^(tiered|coarse)'}), 0,
+		"$what: dropping the mesh drops its levels, and what was published of them");
 	for my $mesh (@meshes)
 	{
 		is(grow($database, $mesh), $grown{$mesh}, "$what: $mesh grows as the origin does");
@@ -237,6 +265,7 @@ like($labels{$meshes[1]}, qr/^labels [1-9]\d{3,} .*\nmarkers [1-9]\d{3,} /, 'the
 
 # everything else is compared with the later original
 $grown{$_} = grow('origin', $_) for @meshes;
+$grown{levels} = change_levels('origin');
 
 fresh_database('plain');
 $node->command_ok([ 'psql', '-Xq', '-v', 'ON_ERROR_STOP=1', '-d', $node->connstr('plain'), '-f', "$folder/plain.sql", '-o', '/dev/null' ], 'text restored');

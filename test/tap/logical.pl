@@ -126,6 +126,32 @@ COMMIT;
 SQL
 is_same('truncated and filled again');
 
+# levels of a mesh, and the same made anew
+$publisher->safe_psql('postgres', <<'SQL');
+SELECT abacus_triangulate('ground', 'SELECT 100 * x + y, x, y, 10 * sin(x / 5.0) * cos(y / 7.0) AS height FROM generate_series(0, 30) AS x, generate_series(0, 30) AS y');
+SELECT abacus_levels('ground', '{0.5,2}');
+SQL
+my $more = $publisher->basedir . '/more.sql';
+$publisher->command_ok([ 'pg_dump', '-d', $connection, '--schema-only', '-t', 'ground*', '-f', $more ], 'definitions of a mesh with levels');
+$subscriber->command_ok([ 'psql', '-Xq', '-v', 'ON_ERROR_STOP=1', '-d', $subscriber->connstr('postgres'), '-f', $more, '-o', '/dev/null' ],
+	'the same tables there');
+my $all = $publisher->safe_psql('postgres', "SELECT string_agg(oid::regclass::text, ', ') FROM pg_class WHERE relname LIKE 'ground%' AND relkind = 'r'");
+$publisher->safe_psql('postgres', "ALTER PUBLICATION mesh ADD TABLE $all");
+$subscriber->safe_psql('postgres', 'ALTER SUBSCRIPTION mesh REFRESH PUBLICATION');
+$subscriber->wait_for_subscription_sync($publisher, 'mesh');
+sub levels
+{
+	return $_[0]->safe_psql('postgres', q{SELECT level, mesh, max_error, greatest, stamp FROM ground_levels ORDER BY level;
+		SELECT string_agg(v::text, ' ' ORDER BY id) FROM abacus_vertices(abacus_level('ground', 0.5)) AS v; SELECT string_agg(v::text, ' ' ORDER BY id) FROM abacus_vertices(abacus_level('ground', 2)) AS v});
+}
+my $levels = levels($publisher);
+is(levels($subscriber), $levels, 'initial copy of levels');
+$publisher->safe_psql('postgres', q{SELECT abacus_insert('ground', 'VALUES (-1, 15.5, 15.5, 30)'); SELECT abacus_levels_refresh('ground')});
+$publisher->wait_for_catchup('mesh');
+isnt(levels($publisher), $levels, 'levels are made anew');
+is(levels($subscriber), levels($publisher), '... and so they are there');
+is_intact($subscriber, 'postgres', 'ground_level_1', 'a level made anew');
+
 # takeover: the subscription ends, and the mesh can be changed
 $subscriber->safe_psql('postgres', 'DROP SUBSCRIPTION mesh');
 for my $node ($publisher, $subscriber)
