@@ -57,6 +57,35 @@ TEST(ExactSum, IsTheNearestDouble) {
     }
 }
 
+/// Sums of sums, multiples, and which of two is less: as rational numbers.
+TEST(ExactSum, CalculatesExactly) {
+    std::mt19937_64 random(3);
+    for (int round = 0; round < 2000; ++round) {
+        ExactSum sums[2];
+        Rational exact[2] = {0, 0};
+        for (int i = 0; i < 2; ++i)
+            for (std::uint64_t n = random() % 6; n > 0; --n) {
+                const double x = std::scalbn(static_cast<double>(random() % 9) - 3,
+                                             static_cast<int>(random() % 2 * (random() % 900)));
+                sums[i].add(x);
+                exact[i] += Rational(x);
+            }
+        const auto factor = static_cast<std::uint32_t>(random() >> random() % 33 >> 32);
+        ExactSum both = sums[0];
+        both.add(sums[1]);
+        const Rational all = exact[0] + exact[1];
+        EXPECT_EQ(sums[0] < sums[1], exact[0] < exact[1]);
+        EXPECT_FALSE(sums[0] < sums[0]);
+        EXPECT_EQ(both.times(factor) < sums[0], all * factor < exact[0]);
+        EXPECT_EQ(sums[1] < both.times(factor), exact[1] < all * factor);
+        EXPECT_EQ(both.is_zero(), all == 0);
+        ExactSum repeated; // the same once more, by adding
+        for (std::uint32_t i = 0; i < factor % 50; ++i) repeated.add(both);
+        const ExactSum product = both.times(factor % 50);
+        EXPECT_FALSE(product < repeated || repeated < product);
+    }
+}
+
 TEST(ExactSum, IsTheSameInAnyOrder) {
     std::mt19937_64 random(2);
     std::vector<double> summands;

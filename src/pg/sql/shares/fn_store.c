@@ -220,7 +220,8 @@ abacus_sql_store(PG_FUNCTION_ARGS)
 	int64		step;
 	uint32		part;
 	Source		source;
-	NamedRows  *given;
+	NamedRows  *given,
+			   *own;
 	Relation	mesh;
 	PartMark	mark;
 	char	   *table;
@@ -240,8 +241,9 @@ abacus_sql_store(PG_FUNCTION_ARGS)
 	given = read_rows(&source);
 	rows = given->count;
 	mesh = mesh_table_open(mesh_id, MESH_READ);
+	own = find_own(fcinfo, &mark);
 	named_rows_register(given);
-	named_rows_register(find_own(fcinfo, &mark));
+	named_rows_register(own);
 	level = plain_names_begin(false);
 	check_ids(part);
 	plain_names_end(level);
@@ -250,6 +252,8 @@ abacus_sql_store(PG_FUNCTION_ARGS)
 	level = plain_names_begin(false);
 	replace_rows(table, step, part, &mark, rows);
 	plain_names_end(level);
+	named_rows_free(own);
+	named_rows_free(given);
 	table_close(mesh, NoLock);
 	source_finish(&source);
 	PG_RETURN_INT64((int64) rows);
