@@ -241,7 +241,7 @@ class Thin(unittest.TestCase):
                 break
             self.assertIn("statement timeout", said)
             begun += abacus.rows("SELECT count(*) FROM pg_class WHERE relname = 'thinned_thinning'") == [["1"]]
-            milliseconds *= 1.3
+            milliseconds *= 1.4
         self.assertGreater(begun, 0)
         said = abacus.script(f"CALL abacus_thin_build('source', 'thinned', {arguments})")
         self.assertIn("already exists", said)
