@@ -75,6 +75,7 @@ CREATE FUNCTION abacus_contours_geom(
     bounds geometry DEFAULT NULL,
     max_edge double precision DEFAULT NULL,
     within text DEFAULT NULL,
+    max_error double precision DEFAULT NULL,
     OUT id bigint,
     OUT value double precision,
     OUT geom geometry)
@@ -84,18 +85,20 @@ BEGIN ATOMIC
     SELECT c.id, c.value, _abacus_line(c.path, 2, f.srid)
     FROM _abacus_facts(mesh, NULL) AS f,
          abacus_contours(mesh, level_interval, level_base, fixed_levels, false, attribute,
-                         _abacus_lower(mesh, bounds), _abacus_upper(mesh, bounds), max_edge, within => within) AS c
+                         _abacus_lower(mesh, bounds), _abacus_upper(mesh, bounds), max_edge, within => within,
+                         max_error => max_error) AS c
     WHERE polygonize IS NOT TRUE AND ST_IsEmpty(bounds) IS NOT TRUE
     UNION ALL
     SELECT c.id, min(c.value), ST_Multi(_abacus_nest(ST_Collect(_abacus_line(c.path, 2, f.srid))))
     FROM _abacus_facts(mesh, NULL) AS f,
          abacus_contours(mesh, level_interval, level_base, fixed_levels, true, attribute,
-                         _abacus_lower(mesh, bounds), _abacus_upper(mesh, bounds), max_edge, within => within) AS c
+                         _abacus_lower(mesh, bounds), _abacus_upper(mesh, bounds), max_edge, within => within,
+                         max_error => max_error) AS c
     WHERE polygonize AND ST_IsEmpty(bounds) IS NOT TRUE
     GROUP BY c.id;
 END;
-COMMENT ON FUNCTION abacus_contours_geom(regclass, double precision, double precision, double precision[], boolean, text, geometry, double precision, text) IS
-    'the contours of an attribute in a mesh in the plane, or in the box around a geometry, as whole lines. With polygonize, the bands between levels, a multipolygon each. within is the name of a region of the mesh, or a polygon as WKT, EWKT or hexadecimal EWKB; all else is as outside of the mesh. Shapes: fixed_levels is an array of levels. Units: levels in those of the attribute, max_edge in those of the coordinates. Errors: those of abacus_contours; 22023 another SRID; 42704 no such region';
+COMMENT ON FUNCTION abacus_contours_geom(regclass, double precision, double precision, double precision[], boolean, text, geometry, double precision, text, double precision) IS
+    'the contours of an attribute in a mesh in the plane, or in the box around a geometry, as whole lines. With polygonize, the bands between levels, a multipolygon each. within is the name of a region of the mesh, or a polygon as WKT, EWKT or hexadecimal EWKB; all else is as outside of the mesh. max_error reads the coarsest level of abacus_levels whose error is not greater. Shapes: fixed_levels is an array of levels. Units: levels and max_error in those of the attribute, max_edge in those of the coordinates. Errors: those of abacus_contours; 22023 another SRID; 42704 no such region';
 
 CREATE FUNCTION abacus_profile_geom(
     mesh regclass,

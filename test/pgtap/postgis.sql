@@ -131,6 +131,10 @@ SELECT results_eq($$ SELECT id, value, ST_NPoints(geom), ST_IsClosed(geom) FROM 
 SELECT is((SELECT round(sum(ST_Area(geom))::numeric, 6) FROM abacus_contours_geom('terrain', 10, polygonize => true)), round(ST_Area(abacus_hull_geom('terrain'))::numeric, 6), 'bands fill the hull');
 SELECT is((SELECT count(*) FROM abacus_contours_geom('terrain', 10, polygonize => true) WHERE ST_IsValid(geom) AND GeometryType(geom) = 'MULTIPOLYGON'), (SELECT count(DISTINCT value) FROM abacus_contours('terrain', 10, polygonize => true)), 'and are valid, one a value');
 SELECT is((SELECT round(sum(ST_Area(geom))::numeric, 6) FROM abacus_contours_geom('terrain', 10, polygonize => true, bounds => ST_MakeEnvelope(20, 20, 80, 70, 2154))), 3000.000000, 'those of a window fill it');
+SELECT abacus_levels('terrain', '{20}');
+SELECT results_eq($$ SELECT id, value, geom FROM abacus_contours_geom('terrain', 10, polygonize => false, max_error => 20) ORDER BY id $$, $$ SELECT id, value, geom FROM abacus_contours_geom('terrain_level_1', 10, polygonize => false) ORDER BY id $$, 'lines of a level');
+SELECT results_eq($$ SELECT id, value, geom FROM abacus_contours_geom('terrain', 10, polygonize => true, max_error => 20) ORDER BY id $$, $$ SELECT id, value, geom FROM abacus_contours_geom('terrain_level_1', 10, polygonize => true) ORDER BY id $$, 'bands of a level');
+SELECT is(abacus_levels_drop('terrain'), 1, 'which goes');
 SELECT is((SELECT round(sum(ST_Area(geom))::numeric, 6) FROM abacus_voronoi_geom('terrain', ST_MakeEnvelope(20, 20, 80, 70, 2154)) WHERE ST_IsValid(geom)), 3000.000000, 'so do Voronoi cells');
 SELECT is_empty($$ SELECT FROM abacus_voronoi_geom('terrain', ST_MakeEnvelope(40, 40, 60, 60, 2154)) AS v JOIN sites AS s ON s.id = v.vertex WHERE bounded AND ST_Within(s.geom, ST_MakeEnvelope(40, 40, 60, 60, 2154)) AND NOT ST_Contains(v.geom, s.geom) $$, 'each around its point');
 SELECT results_eq($$ SELECT vertex, neighbour, round(ST_Length(geom)::numeric, 9) FROM abacus_voronoi_facets_geom('terrain', ST_MakeEnvelope(40, 40, 45, 45, 2154)) ORDER BY 1, 2, 3 $$,

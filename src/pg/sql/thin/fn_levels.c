@@ -222,20 +222,11 @@ thin_to_levels(const Levels *called, const char *schema, const char *name, Datum
 		elog(ERROR, "could not make levels: %s", SPI_result_code_string(SPI_result));
 }
 
-/* The table that says how a mesh is thinned, as a name in SQL. */
+/* The table that says how a mesh was thinned just now, as a name in SQL. */
 static char *
-thinning_name(Oid mesh)
+thinning_name(Relation mesh)
 {
-	Relation	rel = mesh_table_open(mesh, MESH_READ);
-	Oid			table = mesh_rows_table(rel, MESH_THINNING, MESH_READ);
-
-	table_close(rel, NoLock);
-	if (!OidIsValid(table))
-		ereport(ERROR,
-				(errcode(ERRCODE_UNDEFINED_TABLE),
-				 errmsg("level \"%s\" has lost its table of thinning", get_rel_name(mesh)),
-				 errhint("Drop the levels with abacus_levels_drop(), and make them anew with abacus_levels().")));
-	return lines_table_name(table);
+	return lines_table_name(mesh_rows_table(mesh, MESH_THINNING, MESH_READ));
 }
 
 /* Enters what has been made into the table of levels. */
@@ -246,11 +237,12 @@ enter_levels(const Levels *called, Oid table, const char *schema, const char *na
 
 	for (int i = 1; i <= count; i++)
 	{
-		Oid			level = new_table_id(namespace, level_name(name, i));
+		Relation	level = mesh_table_open(new_table_id(namespace, level_name(name, i)), MESH_READ);
 
 		run(psprintf("INSERT INTO %s SELECT %d, '%u'::regclass, attribute, max_error, greatest, stamp FROM %s",
-					 lines_table_name(table), i, level, thinning_name(level)), SPI_OK_INSERT);
-		mesh_bind_table(called->mesh, level);
+					 lines_table_name(table), i, RelationGetRelid(level), thinning_name(level)), SPI_OK_INSERT);
+		mesh_bind_table(called->mesh, RelationGetRelid(level));
+		table_close(level, NoLock);
 	}
 }
 
@@ -320,16 +312,20 @@ lock_levels(const Levels *called, Level **levels, int *count)
 	return table;
 }
 
+/* Keeps all levels, which must be there, from being changed by hand: a DELETE would not see new rows. */
 static void
-check_levels_exist(const Levels *called, const Level *levels, int count)
+lock_each_level(const Levels *called, const Level *levels, int count)
 {
 	for (int i = 0; i < count; i++)
+	{
+		LockRelationOid(levels[i].mesh, ShareRowExclusiveLock);
 		if (mesh_of_table(levels[i].mesh) != levels[i].mesh)
 			ereport(ERROR,
 					(errcode(ERRCODE_UNDEFINED_TABLE),
 					 errmsg("level %d of mesh \"%s\" no longer exists", levels[i].number, get_rel_name(called->mesh)),
 					 errhint("Drop the other levels with abacus_levels_drop(), and make them anew with "
 							 "abacus_levels().")));
+	}
 }
 
 static void
@@ -366,13 +362,15 @@ replace_level(Oid table, const Level *level)
 	Oid			fresh = new_table_id(LookupNamespaceNoError("pg_temp"), psprintf(FRESH_NAME "%d", level->number));
 	Relation	by = mesh_table_open(fresh, MESH_READ);
 	Relation	of = mesh_table_open(level->mesh, MESH_WRITE);
+	Oid			thinning = mesh_rows_table(of, MESH_THINNING, MESH_WRITE);
 
 	replace_rows(lines_table_name(level->mesh), lines_table_name(fresh));
 	replace_rows(lines_table_name(mesh_vertex_table(of, MESH_WRITE)), lines_table_name(mesh_vertex_table(by, MESH_READ)));
 	replace_lines(of, by);
-	replace_rows(thinning_name(level->mesh), thinning_name(fresh));
+	if (OidIsValid(thinning))	/* the table of levels says the same */
+		replace_rows(lines_table_name(thinning), thinning_name(by));
 	run(psprintf("UPDATE %s AS l SET greatest = t.greatest, stamp = t.stamp FROM %s AS t WHERE l.level = %d",
-				 lines_table_name(table), thinning_name(fresh), level->number), SPI_OK_UPDATE);
+				 lines_table_name(table), thinning_name(by), level->number), SPI_OK_UPDATE);
 	table_close(of, NoLock);
 	table_close(by, NoLock);
 	run(psprintf("DROP TABLE %s", lines_table_name(fresh)), SPI_OK_UTILITY);
@@ -390,7 +388,7 @@ abacus_sql_levels_refresh(PG_FUNCTION_ARGS)
 	InitMaterializedSRF(fcinfo, 0);
 	begin_as_owner(&called, fcinfo, PG_GETARG_OID(OF_MESH));
 	table = lock_levels(&called, &levels, &count);
-	check_levels_exist(&called, levels, count);
+	lock_each_level(&called, levels, count);
 	run(psprintf("SELECT %s.abacus_thin('%u', 'pg_temp." FRESH_NAME "' || level, max_error, attribute) FROM %s",
 				 called.extension, called.mesh, lines_table_name(table)), SPI_OK_SELECT);
 	for (int i = 0; i < count; i++)
