@@ -52,6 +52,7 @@ SELECT abacus_triangulate('tiered', 'SELECT 100 * x + y, x, y, 10 * sin(x / 5.0)
 SELECT abacus_levels('tiered', '{0.5,2}');
 ALTER TABLE tiered_level_2 RENAME TO coarse;
 ALTER TABLE tiered_level_2_vertices RENAME TO coarse_vertices;
+ALTER TABLE tiered_level_2_thinning RENAME TO coarse_thinning;
 SELECT abacus_publish('tiered', geometry => false);
 GRANT USAGE ON SCHEMA abacus TO owner;
 SET ROLE owner;
