@@ -37,7 +37,7 @@ short_sets="wheel octree duplicates"
 # Each suite and its command, in the order in which they begin, each as soon as its needs have passed.
 suites=(format layout build-extension build tap build-benchmarks build-sanitized build-threads
     postgresql-17 postgresql-18 viewer unit-sanitized unit-threads unit acceptance unit-apart oracles pgtap
-    regress isolation docs model model-lines model-track fuzz reports acceptance-goose oracles-large tidy bench evaluation)
+    regress isolation docs model model-lines model-track fuzz reports acceptance-goose oracles-large viewer-large tidy bench evaluation)
 declare -A command=(
     [format]=format_check
     [layout]=layout_check
@@ -59,6 +59,7 @@ declare -A command=(
     [oracles]="with_server oracle_tests"
     [oracles-large]="with_server large_oracle_tests"
     [viewer]="with_server viewer_tests"
+    [viewer-large]="with_server viewer_tests large/*"
     [tap]="with_server tap_suite ${ABACUS_SHORT:+$short_tap}"
     [acceptance]="scripts/acceptance.sh quick ${ABACUS_SHORT:+$short_sets}"
     [acceptance-goose]="scripts/acceptance.sh goose"
@@ -75,7 +76,7 @@ declare -A command=(
 declare -A needs=([unit]=build [unit-apart]=build [build-sanitized]=build [build-benchmarks]=build
     [unit-sanitized]=build-sanitized [unit-threads]=build-threads [fuzz]=build-sanitized
     [bench]=build-benchmarks [evaluation]=build-benchmarks)
-for name in build regress isolation pgtap docs viewer tap; do needs[$name]=build-extension; done
+for name in build regress isolation pgtap docs viewer viewer-large tap; do needs[$name]=build-extension; done
 for name in acceptance acceptance-goose model model-lines model-track oracles oracles-large postgresql-17 postgresql-18; do needs[$name]=build; done
 if [[ -n ${ABACUS_SHORT:-} ]]; then needs[acceptance]=build-extension; fi # the oracle was brought
 

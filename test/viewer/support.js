@@ -18,8 +18,8 @@ setTimeout(() => {
 }, mostOfFile).unref();
 
 /** What psql says, without headings. It stops this process while it runs, so it must end, whatever else holds a lock. */
-export const psql = (text) =>
-    execFileSync("psql", ["-X", "-q", "-A", "-t", "-v", "ON_ERROR_STOP=1", "-c", text], { encoding: "utf8", stdio: ["ignore", "pipe", "pipe"], timeout: 120_000 }).trim();
+export const psql = (text, most = 120_000) =>
+    execFileSync("psql", ["-X", "-q", "-A", "-t", "-v", "ON_ERROR_STOP=1", "-c", text], { encoding: "utf8", stdio: ["ignore", "pipe", "pipe"], timeout: most }).trim();
 
 export function makeMeshes() {
     psql("SET client_min_messages = warning; DROP TABLE IF EXISTS terrain, globe, rock, shire CASCADE");
