@@ -54,6 +54,39 @@ ABACUS_API abacus_status abacus_tile_terrain(const abacus_host *host, const abac
 											 const abacus_tile_memory *memory,
 											 abacus_picture *picture, abacus_error *error);
 
+/* What the coordinates of a mesh are. */
+typedef enum abacus_tile_plane
+{
+	ABACUS_TILE_OWN = 0,   /* metres on a map of their own, which is the tile's */
+	ABACUS_TILE_DEGREES,   /* longitude and latitude */
+	ABACUS_TILE_MERCATOR   /* metres of Web Mercator */
+} abacus_tile_plane;
+
+typedef enum abacus_tile_mesh_format
+{
+	ABACUS_TILE_QUANTIZED = 0, /* quantized-mesh 1.0 with normals; on the globe only */
+	ABACUS_TILE_GLB            /* glTF 2.0 as one file */
+} abacus_tile_mesh_format;
+
+typedef struct abacus_tile_mesh_kind
+{
+	abacus_tile_plane plane;
+	abacus_tile_mesh_format format;
+	uint32_t attribute;     /* heights in metres */
+	int32_t from_south;     /* 1: y of the tile counts from the south */
+} abacus_tile_mesh_kind;
+
+/*
+ * Terrain as triangles; `picture` gets the bytes, none if there is no triangle in the tile. For
+ * degrees there are 2^(z+1) by 2^z tiles, each a square of 180 / 2^z degrees; lower and side of the
+ * tile are then not read.
+ */
+ABACUS_API abacus_status abacus_tile_mesh(const abacus_host *host, const abacus_facts *facts,
+										  const abacus_tile *tile,
+										  const abacus_tile_mesh_kind *kind,
+										  const abacus_tile_memory *memory,
+										  abacus_picture *picture, abacus_error *error);
+
 typedef struct abacus_tile_vector_kind
 {
 	int32_t attribute;       /* the value of triangles, vertices and contours; -1 = none */

@@ -1,5 +1,6 @@
 // Tiles behind the C interface.
 #include "tiles/fixed_layer.hpp"
+#include "tiles/mesh_tile.hpp"
 #include "tiles/picture_tile.hpp"
 #include "tiles/terrain_tile.hpp"
 #include "tiles/vector_tile.hpp"
@@ -44,6 +45,19 @@ abacus_status abacus_tile_terrain(const abacus_host *host, const abacus_facts *f
         const abacus::Host wrapped(*host);
         return hand_over(abacus::terrain_tile(wrapped, *facts, *tile, *kind, *memory), false,
                          picture);
+    });
+}
+
+abacus_status abacus_tile_mesh(const abacus_host *host, const abacus_facts *facts,
+                               const abacus_tile *tile, const abacus_tile_mesh_kind *kind,
+                               const abacus_tile_memory *memory, abacus_picture *picture,
+                               abacus_error *error) {
+    return abacus::guard(error, [&] {
+        require_plane(*facts);
+        const abacus::Host wrapped(*host);
+        abacus::Png bytes = abacus::mesh_tile(wrapped, *facts, *tile, *kind, *memory);
+        const bool is_blank = bytes.size() == 0;
+        return hand_over(std::move(bytes), is_blank, picture);
     });
 }
 

@@ -2,22 +2,31 @@
 
 namespace abacus {
 
-TileWindow::TileWindow(const abacus_tile &tile, const abacus_facts &facts)
-    : plane_(tile.is_geographic != 0) {
+void require_globe(const abacus_facts &facts) {
     if (facts.form.has_domain != 0 && (facts.form.lower[1] > 90 || facts.form.upper[1] < -90))
-        plane_.project({facts.form.lower[0], facts.form.lower[1]});
-    if (tile.zoom < 0 || tile.zoom > most_zoom)
+        MapPlane(true).project({facts.form.lower[0], facts.form.lower[1]});
+}
+
+void require_tile(const abacus_tile &tile, std::int32_t finest, int doublings) {
+    if (tile.zoom < 0 || tile.zoom > finest)
         throw Error(ABACUS_ERROR_ARGUMENT, "zoom of the tile is out of range",
                     "It is " + std::to_string(tile.zoom) + "; it must be from 0 to " +
-                        std::to_string(most_zoom) + ".");
+                        std::to_string(finest) + ".");
+    const std::int64_t rows = std::int64_t{1} << tile.zoom, columns = rows << doublings;
+    if (tile.x >= 0 && tile.x < columns && tile.y >= 0 && tile.y < rows) return;
+    const std::string range = doublings == 0 ? "x and y are from 0 to " + std::to_string(rows - 1)
+                                             : "x is from 0 to " + std::to_string(columns - 1) +
+                                                   " and y from 0 to " + std::to_string(rows - 1);
+    throw Error(ABACUS_ERROR_ARGUMENT, "there is no such tile",
+                "Tile " + std::to_string(tile.zoom) + "/" + std::to_string(tile.x) + "/" +
+                    std::to_string(tile.y) + " does not exist: at this zoom " + range + ".");
+}
+
+TileWindow::TileWindow(const abacus_tile &tile, const abacus_facts &facts)
+    : plane_(tile.is_geographic != 0) {
+    if (tile.is_geographic != 0) require_globe(facts);
+    require_tile(tile, most_zoom, 0);
     const std::int64_t tiles = std::int64_t{1} << tile.zoom;
-    for (const std::int32_t place : {tile.x, tile.y})
-        if (place < 0 || place >= tiles)
-            throw Error(ABACUS_ERROR_ARGUMENT, "there is no such tile",
-                        "Tile " + std::to_string(tile.zoom) + "/" + std::to_string(tile.x) + "/" +
-                            std::to_string(tile.y) +
-                            " does not exist: at this zoom x and y are from 0 to " +
-                            std::to_string(tiles - 1) + ".");
     const double lower[2] = {tile.is_geographic != 0 ? -180 : tile.lower[0],
                              tile.is_geographic != 0 ? -180 : tile.lower[1]};
     const double side = tile.is_geographic != 0 ? 360 : tile.side;

@@ -10,6 +10,12 @@ namespace abacus {
 
 inline constexpr std::int32_t most_zoom = 30;
 
+/// Throws an Error (argument) if no place of the mesh can be on the globe.
+void require_globe(const abacus_facts &facts);
+/// Throws an Error (argument) if there is no such tile. The map is 2^doublings as wide as it is
+/// high.
+void require_tile(const abacus_tile &tile, std::int32_t finest, int doublings);
+
 class TileWindow {
 public:
     /// Throws an Error (argument) if there is no such tile, or no place of the mesh can be on the

@@ -7,6 +7,7 @@
 #include "query/pages/extent.hpp"
 #include "query/pages/page_flood.hpp"
 #include "query/pages/page_simplex.hpp"
+#include "query/places/place_value.hpp"
 #include "query/places/places.hpp"
 #include "query/scan/extent_pages.hpp"
 #include "query/values/barycentric.hpp"
@@ -86,27 +87,6 @@ template <int D> int facets_at(const Corners<D> &corners, const Point<D> &p) {
     }
     return facets;
 }
-
-/// The value at a pixel, whose number is its id as a place.
-template <int D> class PixelValue final : public Question<D> {
-public:
-    PixelValue(const abacus_interpolation &how, double *values) : how_(how), values_(values) {}
-
-    std::size_t words() const override { return 1; }
-    bool is_quick() const override { return how_.method == ABACUS_LINEAR; }
-    void answer(Answerer<D> &by, const Point<D> &p, Tape &tape) const override {
-        double value;
-        const bool has_value = by.interpolation.values(by.reader, how_, p, &value);
-        tape.put(has_value ? value : NAN);
-    }
-    void tell(std::int64_t id, Tape::Player &answers) const override {
-        values_[id] = answers.take<double>();
-    }
-
-private:
-    const abacus_interpolation &how_;
-    double *const values_;
-};
 
 } // namespace
 
@@ -190,7 +170,7 @@ template <int D> void ValueRaster<D>::ask() {
     }
     flush();
     if (!places) return;
-    places->each(PixelValue<D>(how_, values_.data()));
+    places->each(PlaceValue<D>(how_, values_.data()));
 }
 
 // ---- Filled by simplices ------------------------------------------------------------------

@@ -1,0 +1,94 @@
+/*
+ * fn_tile_mesh.c: abacus_tile_mesh, a tile of terrain as triangles.
+ */
+#include "postgres.h"
+
+#include "abacus/tile.h"
+#include "pg/base/settings.h"
+#include "pg/base/sql_function.h"
+#include "pg/mesh/reader.h"
+#include "pg/sql/arguments/word.h"
+#include "pg/sql/draw/drawing.h"
+#include "pg/sql/draw/tile_map.h"
+
+SQL_FUNCTION(abacus_sql_tile_mesh);
+
+enum
+{
+	MESH_MESH,
+	MESH_ZOOM,
+	MESH_X,
+	MESH_Y,
+	MESH_ATTRIBUTE,
+	MESH_SRID,
+	MESH_WORLD,
+	MESH_FORMAT,
+	MESH_SCHEME
+};
+
+/* In the order of abacus_tile_mesh_format */
+static const char *const formats[] = {"quantized-mesh", "glb", NULL};
+
+/* Whether y counts from the north */
+static const char *const schemes[] = {"tms", "xyz", NULL};
+
+/* The mesh whose triangles the tile has. A level of detail of it would be chosen here. */
+static Reader *
+open_mesh(FunctionCallInfo fcinfo)
+{
+	Reader	   *reader = reader_open(PG_GETARG_OID(MESH_MESH), CurrentMemoryContext);
+
+	header_require_dimension(&reader->header.facts.form, 2, "Use a mesh in the plane.");
+	header_require_attributes(&reader->header.facts);
+	return reader;
+}
+
+/* What the coordinates are. */
+static abacus_tile_plane
+plane_of(FunctionCallInfo fcinfo, const abacus_tile *tile, abacus_tile_mesh_format format)
+{
+	if (PG_ARGISNULL(MESH_WORLD))
+		return tile->is_geographic ? ABACUS_TILE_DEGREES : ABACUS_TILE_MERCATOR;
+	if (format == ABACUS_TILE_QUANTIZED)
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+				 errmsg("a map of its own has no place on the globe, which quantized-mesh needs"),
+				 errhint("Use format => 'glb' with world; or leave out world, if the coordinates of the mesh are "
+						 "longitude and latitude (srid => 4326) or Web Mercator (srid => 3857).")));
+	return ABACUS_TILE_OWN;
+}
+
+/*
+ * abacus_tile_mesh(mesh regclass, z int, x int, y int, attribute text, srid int, world float8[],
+ * format text, scheme text) -> bytea
+ */
+Datum
+abacus_sql_tile_mesh(PG_FUNCTION_ARGS)
+{
+	abacus_tile tile = {0};
+	abacus_tile_memory memory = {setting_query_sort_bytes(), setting_cache_bytes()};
+	abacus_tile_mesh_kind kind = {0};
+	abacus_picture bytes = {0};
+	Reader	   *reader;
+	bytea	   *result;
+
+	for (int i = 0; i < MESH_ATTRIBUTE; i++)
+		if (PG_ARGISNULL(i))
+			PG_RETURN_NULL();
+	reader = open_mesh(fcinfo);
+	kind.format = word_argument(fcinfo, MESH_FORMAT, formats, "format", "Use quantized-mesh or glb.");
+	kind.from_south = word_argument(fcinfo, MESH_SCHEME, schemes, "scheme",
+									"Use tms, where y counts from the south, or xyz, where it counts from the north.") == 0;
+	kind.attribute = (uint32) tile_attribute(fcinfo, MESH_ATTRIBUTE, abacus_names_of(&reader->header));
+	tile_map(fcinfo, MESH_SRID, MESH_WORLD, &reader->header.facts.form, &tile);
+	kind.plane = plane_of(fcinfo, &tile, kind.format);
+	tile.zoom = PG_GETARG_INT32(MESH_ZOOM);
+	tile.x = PG_GETARG_INT32(MESH_X);
+	tile.y = PG_GETARG_INT32(MESH_Y);
+	host_run(reader->host, abacus_tile_mesh, &reader->host->table, &reader->header.facts, &tile, &kind,
+			 &memory, &bytes);
+	result = drawing_finish(reader->host, &bytes);
+	if (bytes.is_blank)
+		PG_RETURN_NULL();
+	PG_RETURN_BYTEA_P(result);
+}
