@@ -9,7 +9,7 @@ const maplibre = folder("node_modules/maplibre-gl/dist/");
 rmSync(folder("dist"), { recursive: true, force: true });
 mkdirSync(folder("dist"));
 const page = await build({
-    entryPoints: [folder("page/plane.js"), folder("page/space.js"), folder("page/list.js")],
+    entryPoints: [folder("page/plane.js"), folder("page/space.js"), folder("page/list.js"), folder("page/globe.js")],
     bundle: true,
     minify: true,
     format: "esm",
@@ -24,7 +24,11 @@ const page = await build({
 for (const name of ["maplibre-gl.mjs", "maplibre-gl-shared.mjs", "maplibre-gl-worker.mjs", "maplibre-gl.css"])
     copyFileSync(maplibre + name, folder(`dist/${name}`));
 copyFileSync(folder("node_modules/uplot/dist/uPlot.min.css"), folder("dist/uplot.css"));
-for (const name of ["index.html", "list.html", "style.css", "list.css"]) copyFileSync(folder(`page/${name}`), folder(`dist/${name}`));
+// What Cesium loads by itself: its workers, and some of its tables and pictures.
+const cesium = folder("node_modules/@cesium/engine/");
+cpSync(`${cesium}Build/Workers`, folder("dist/cesium/Workers"), { recursive: true });
+for (const name of ["approximateTerrainHeights.json", "IAU2006_XYS", "Images/ion-credit.png"]) cpSync(`${cesium}Source/Assets/${name}`, folder(`dist/cesium/Assets/${name}`), { recursive: true });
+for (const name of ["index.html", "list.html", "globe.html", "style.css", "list.css", "globe.css"]) copyFileSync(folder(`page/${name}`), folder(`dist/${name}`));
 
 if (process.argv[2] === "--package") {
     rmSync(folder("package"), { recursive: true, force: true });

@@ -99,6 +99,7 @@ export const plane = {
     picture: `SELECT abacus_tile_picture($1::oid::regclass, $2, $3, $4, $5, $6::float8[], attribute => $7, range => $8::float8[],
         ramp => $9, contours => $10, exaggeration => $11, edges => $12, size => $13, within => $14, regions => $15) AS tile`,
     vector: "SELECT abacus_tile_vector($1::oid::regclass, $2, $3, $4, $5, $6::float8[], attribute => $7, contours => $8, within => $9) AS tile",
+    mesh: "SELECT abacus_tile_mesh($1::oid::regclass, $2, $3, $4, $5, $6) AS tile",
     terrain: "SELECT abacus_tile_terrain($1::oid::regclass, $2, $3, $4, $5, $6::float8[], attribute => $7, fill => $8, within => $9) AS tile",
 };
 

@@ -149,12 +149,15 @@ const octreeQueries = ({ dimension }) => kinds[`octree${dimension}`];
 /** What may be asked about a mesh of a kind and dimension. */
 export const readsOf = ({ kind, dimension }) => (kind === "octree" ? octreeReads : dimension === 2 ? planeReads : spaceReads);
 
+/** Zoom, x and y of a tile, from its address. */
+export const placeOfTile = (texts) => texts.map((text) => {
+    if (!/^\d{1,10}$/.test(text) || Number(text) > 2 ** 31 - 1) throw wrong("there is no such tile");
+    return Number(text);
+});
+
 /** A tile: its statement and parameters. */
 export function tile(kind, z, x, y, p, mesh) {
-    const place = [z, x, y].map((text) => {
-        if (!/^\d{1,10}$/.test(text) || Number(text) > 2 ** 31 - 1) throw wrong("there is no such tile");
-        return Number(text);
-    });
+    const place = placeOfTile([z, x, y]);
     const attribute = attributeOf(p, mesh);
     const values = [...place, mesh.srid, mesh.world, attribute];
     const found = mesh.attributes.find((one) => one.name === attribute);

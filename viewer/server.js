@@ -7,8 +7,9 @@ import { parseArgs } from "node:util";
 import { connection } from "./conninfo.js";
 import { Database } from "./database.js";
 import { explain, Refused } from "./errors.js";
+import { layer, nothing, terrain } from "./globe.js";
 import { mapped, Mesh, Meshes } from "./mesh.js";
-import { betweenReads, change, Parameters, picture, readsOf, tile } from "./requests.js";
+import { betweenReads, change, Parameters, picture, placeOfTile, readsOf, tile } from "./requests.js";
 
 const usage = `usage: viewer/serve [--mesh NAME] [-d CONNINFO] [options]     (or abacus-viewer, of Debian's package)
 
@@ -26,11 +27,13 @@ const usage = `usage: viewer/serve [--mesh NAME] [-d CONNINFO] [options]     (or
   --host NAME        address to listen on (127.0.0.1)
 `;
 
-const types = { html: "text/html; charset=utf-8", css: "text/css; charset=utf-8", js: "text/javascript", mjs: "text/javascript" };
+const types = { json: "application/json", jpg: "image/jpeg", png: "image/png", xml: "application/xml", html: "text/html; charset=utf-8", css: "text/css; charset=utf-8", js: "text/javascript", mjs: "text/javascript" };
+/** What a page may load: from here alone, but for the base map. Cesium compiles WebAssembly, and has styles in its elements. */
+const policy = (baseMap, isGlobe = false) => `default-src 'none'; script-src 'self'${isGlobe ? " 'wasm-unsafe-eval'" : ""}; worker-src 'self' blob:; style-src 'self'${isGlobe ? " 'unsafe-inline'" : ""}; ` +
+    `img-src 'self' blob: data:; connect-src ${["'self'", ...(baseMap ? [new URL(baseMap).origin] : [])].join(" ")}; base-uri 'none'; form-action 'none'; frame-ancestors 'none'`;
 /** Headers of all answers. Of other servers the page may ask the one with the base map alone. */
 const headersFor = (baseMap) => ({
-    "Content-Security-Policy": "default-src 'none'; script-src 'self'; worker-src 'self' blob:; style-src 'self'; " +
-        `img-src 'self' blob: data:; connect-src ${["'self'", ...(baseMap ? [new URL(baseMap).origin] : [])].join(" ")}; base-uri 'none'; form-action 'none'; frame-ancestors 'none'`,
+    "Content-Security-Policy": policy(baseMap),
     "X-Content-Type-Options": "nosniff",
     "Referrer-Policy": "no-referrer",
     "Cross-Origin-Resource-Policy": "same-origin",
@@ -65,8 +68,8 @@ function send(response, status, type, content, more = {}) {
 }
 const json = (response, value, status = 200) => send(response, status, "application/json", JSON.stringify(value));
 
-/** A picture whose statement is `make(known)`; 304 if the client has it. Of another mesh it is drawn on the map of `onto`. */
-async function sendPicture(request, response, url, { mesh, onto }, reading, make, type = "image/png") {
+/** A picture or a tile whose statement is `make(known)`, or `otherwise` where that is NULL; 304 if the client has it. Of another mesh it is drawn on the map of `onto`. */
+async function sendPicture(request, response, url, { mesh, onto }, reading, make, { type = "image/png", otherwise } = {}) {
     const { etag, bytes } = await reading(async (query, all) => {
         const known = onto ? placed(await mesh.describe(query), await onto.describe(onto.about(all))) : await mesh.describe(query);
         const drawn = JSON.stringify([known.srid, known.world, url.search]);
@@ -75,8 +78,8 @@ async function sendPicture(request, response, url, { mesh, onto }, reading, make
         const { text, values } = make(known), [row] = await query(text, values);
         return { etag, bytes: Object.values(row)[0] };
     });
-    if (bytes === undefined) return send(response, 304, "image/png", undefined, { ETag: etag });
-    send(response, 200, type, bytes, { ETag: etag });
+    if (bytes === undefined) return send(response, 304, type, undefined, { ETag: etag });
+    send(response, 200, type, bytes ?? otherwise, { ETag: etag });
 }
 
 /** A mesh as described, on the map of another one. */
@@ -89,7 +92,19 @@ function sendTile(request, response, url, path, what, reading) {
     const { mesh } = what;
     const [, kind, z, x, y] = path.match(/^\/tiles\/(picture|vector|terrain)\/(\d+)\/(\d+)\/(\d+)$/) ?? [];
     if (!kind || mesh.page !== "plane") throw new Refused(404, "not found");
-    return sendPicture(request, response, url, what, reading, (known) => tile(kind, z, x, y, new Parameters(url.searchParams), known), kind === "vector" ? "application/x-protobuf" : "image/png");
+    return sendPicture(request, response, url, what, reading, (known) => tile(kind, z, x, y, new Parameters(url.searchParams), known), { type: kind === "vector" ? "application/x-protobuf" : "image/png" });
+}
+
+/** The page of a globe, and its terrain. */
+async function sendGlobe(request, response, url, path, mesh, reading) {
+    const [, z, x, y] = path.match(/^\/globe\/(\d+)\/(\d+)\/(\d+)\.terrain$/) ?? [], p = new Parameters(url.searchParams);
+    if (mesh.page !== "plane" || !(z || path === "/globe/" || path === "/globe/layer.json")) throw new Refused(404, "not found");
+    if (path === "/globe/") {
+        response.setHeader("Content-Security-Policy", policy(null, true));
+        return sendFile(response, "/assets/globe.html", mesh.page);
+    }
+    if (!z) return json(response, await reading(async (query) => layer(p, await mesh.describe(query))));
+    return sendPicture(request, response, url, { mesh }, reading, (known) => terrain(placeOfTile([z, x, y]), p, known), { type: "application/vnd.quantized-mesh", otherwise: nothing });
 }
 
 function sendDrawing(request, response, url, path, mesh, reading) {
@@ -126,7 +141,7 @@ async function edit(request, response, path, mesh, token) {
 
 async function sendFile(response, path, page) {
     const name = path === "/" ? "index.html" : path.slice("/assets/".length);
-    const known = /^[a-z-]+\.(html|css|js|mjs)$/.exec(name);
+    const known = /^(?:cesium\/(?:[A-Za-z0-9_]+\/)*[A-Za-z0-9_-]+|[a-z-]+)\.(html|css|js|mjs|json|jpg|png|xml)$/.exec(name);
     if (!known || (path !== "/" && !path.startsWith("/assets/"))) throw new Refused(404, "not found");
     const content = await readFile(new URL(`dist/${page === "list" && path === "/" ? "list.html" : name}`, import.meta.url)).catch(() => { throw new Refused(404, "not found"); });
     send(response, 200, types[known[1]], name === "index.html" ? String(content).replaceAll("DIMENSION", page) : content);
@@ -180,6 +195,7 @@ function handler(places, options, hosts) {
             const of = url.searchParams.get("of"), what = of === null ? { mesh } : { mesh: await places.other(of, gone.signal), onto: mesh };
             const reading = (task) => mesh.database.read(token, (query) => task(what.mesh.about(query), query), gone.signal);
             if (path.startsWith("/tiles/")) return await sendTile(request, response, url, path, what, reading);
+            if (path.startsWith("/globe/")) return await sendGlobe(request, response, url, path, mesh, reading);
             if (path.startsWith("/pictures/")) return await sendDrawing(request, response, url, path, what.mesh, reading);
             if (path.startsWith("/api/")) return await read(response, url, path, what, reading);
             await sendFile(response, path, mesh.page);

@@ -4,6 +4,7 @@ import chartLine from "lucide-static/icons/chart-line.svg";
 import circlePlus from "lucide-static/icons/circle-plus.svg";
 import copy from "lucide-static/icons/copy.svg";
 import eye from "lucide-static/icons/eye.svg";
+import globe from "lucide-static/icons/globe.svg";
 import layers from "lucide-static/icons/layers.svg";
 import layoutGrid from "lucide-static/icons/layout-grid.svg";
 import locateFixed from "lucide-static/icons/locate-fixed.svg";
@@ -24,7 +25,7 @@ import triangleAlert from "lucide-static/icons/triangle-alert.svg";
 import undo from "lucide-static/icons/undo-2.svg";
 import x from "lucide-static/icons/x.svg";
 
-const icons = { box, "chart-line": chartLine, "circle-plus": circlePlus, copy, eye, layers, "layout-grid": layoutGrid, "locate-fixed": locateFixed, maximize,
+const icons = { box, "chart-line": chartLine, "circle-plus": circlePlus, copy, eye, globe, layers, "layout-grid": layoutGrid, "locate-fixed": locateFixed, maximize,
     "mouse-pointer-click": mousePointerClick, move, "move-up-right": moveUpRight, pause, play, plus, "rotate-ccw": rotateCcw, ruler, save, search, shapes, "trash-2": trash,
     "triangle-alert": triangleAlert, "undo-2": undo, x };
 

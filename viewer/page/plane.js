@@ -164,6 +164,7 @@ map.addControl(new maplibre.NavigationControl({ visualizePitch: true }), "bottom
 map.addControl(new Buttons({ id: "fit", name: "Fit to mesh", picture: "maximize", click: fit },
     { id: "three", name: "Terrain in 3D", picture: "box", click: () => element("relief").click() }), "bottom-right");
 document.body.classList.toggle("many", Boolean(mesh.isOneOfMany));
+element("globe").hidden = !mesh.srid || !mesh.attributes.length || mesh.lower[0] === null;
 element("name").textContent = mesh.name;
 document.title = `${mesh.name} – Abacus`;
 chooseAttribute();
