@@ -74,12 +74,13 @@ CREATE FUNCTION abacus_tile_mesh(
     srid integer DEFAULT NULL,
     world double precision[] DEFAULT NULL,
     format text DEFAULT 'quantized-mesh',
-    scheme text DEFAULT 'tms')
+    scheme text DEFAULT 'tms',
+    max_error double precision DEFAULT NULL)
 RETURNS bytea
 AS 'MODULE_PATHNAME', 'abacus_sql_tile_mesh'
 LANGUAGE C STABLE PARALLEL SAFE COST 1000000;
-COMMENT ON FUNCTION abacus_tile_mesh(regclass, integer, integer, integer, text, integer, double precision[], text, text) IS
-    'a tile of terrain as triangles: quantized-mesh, which Cesium reads, or glb, which is glTF 2.0. NULL if the tile has no triangle. A mesh in longitude and latitude has 2^(z+1) by 2^z tiles, each a square in degrees; others have 2^z by 2^z. Shapes: format is quantized-mesh or glb; scheme is tms, where y counts from the south, or xyz, where it counts from the north; world is {x, y, side}. Units: the attribute in metres, with SRID 4326 or 3857 above the ellipsoid; world in the unit of the coordinates, for glb metres. Errors: 22023 no such tile, another SRID, another word, quantized-mesh of a map of its own, a mesh of dimension 3; 42703 no such attribute; 42702 several, and none named; 55000 neither srid nor world for a mesh without SRID, or no attribute; 2202E world of another length';
+COMMENT ON FUNCTION abacus_tile_mesh(regclass, integer, integer, integer, text, integer, double precision[], text, text, double precision) IS
+    'a tile of terrain as triangles: quantized-mesh, which Cesium reads, or glb, which is glTF 2.0. NULL if the tile has no triangle. A mesh in longitude and latitude has 2^(z+1) by 2^z tiles, each a square in degrees; others have 2^z by 2^z. max_error reads the coarsest level of abacus_levels whose error is not greater; tiles that are to fit need the same. Shapes: format is quantized-mesh or glb; scheme is tms, where y counts from the south, or xyz, where it counts from the north; world is {x, y, side}. Units: the attribute and max_error in metres, with SRID 4326 or 3857 above the ellipsoid; world in the unit of the coordinates, for glb metres. Errors: 22023 no such tile, another SRID, another word, quantized-mesh of a map of its own, a mesh of dimension 3; 42703 no such attribute; 42702 several, and none named; 55000 neither srid nor world for a mesh without SRID, or no attribute; 2202E world of another length';
 
 CREATE FUNCTION abacus_tile_etag(mesh regclass)
 RETURNS text

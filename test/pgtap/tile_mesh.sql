@@ -49,5 +49,13 @@ SELECT is(pg_temp.vertices(abacus_tile_mesh('fault', 2, 4, 2, srid => 4326)), 6,
 -- coordinates and heights whose differences are no doubles
 SELECT abacus_triangulate('vast', 'VALUES (1, -1.7e308, -1.7e308, 0.0), (2, 1.7e308, -1.7e308, 10), (3, -1.7e308, 1.7e308, 20)', attributes => '{h}');
 SELECT isnt(abacus_tile_mesh('vast', 0, 0, 0, world => '{-8,-8,16}', format => 'glb'), NULL, 'a tile within a triangle that spans all doubles');
+
+-- a level of detail
+SELECT abacus_triangulate('rough', 'SELECT 100 * i + j, 7 + i / 40.0, 46 + j / 40.0, 500 + (i * 7919 + j * 104729) % 13 FROM generate_series(0, 40) AS i, generate_series(0, 40) AS j', attributes => '{h}');
+SELECT abacus_set_srid('rough', 4326);
+SELECT count(*) FROM abacus_levels('rough', '{5, 20}');
+SELECT ok(pg_temp.triangles(abacus_tile_mesh('rough', 5, 33, 24, max_error => 30)) < pg_temp.triangles(abacus_tile_mesh('rough', 5, 33, 24, max_error => 6)), 'a greater error, fewer triangles');
+SELECT ok(pg_temp.triangles(abacus_tile_mesh('rough', 5, 33, 24, max_error => 6)) < pg_temp.triangles(abacus_tile_mesh('rough', 5, 33, 24)), 'and fewer than the mesh has');
+SELECT is(abacus_tile_mesh('rough', 5, 33, 24, max_error => 1), abacus_tile_mesh('rough', 5, 33, 24), 'without a level that is fine enough the mesh is read');
 SELECT * FROM finish();
 ROLLBACK;

@@ -7,6 +7,7 @@
 #include "pg/base/settings.h"
 #include "pg/base/sql_function.h"
 #include "pg/mesh/reader.h"
+#include "pg/sql/arguments/level_argument.h"
 #include "pg/sql/arguments/word.h"
 #include "pg/sql/draw/drawing.h"
 #include "pg/sql/draw/tile_map.h"
@@ -23,7 +24,13 @@ enum
 	MESH_SRID,
 	MESH_WORLD,
 	MESH_FORMAT,
-	MESH_SCHEME
+	MESH_SCHEME,
+	MESH_MAX_ERROR
+};
+
+static const LevelArguments mesh_level = {
+	.mesh = MESH_MESH,.attribute = MESH_ATTRIBUTE,.within = -1,.regions = -1,
+	.max_error = MESH_MAX_ERROR,.pixel_error = -1
 };
 
 /* In the order of abacus_tile_mesh_format */
@@ -32,11 +39,14 @@ static const char *const formats[] = {"quantized-mesh", "glb", NULL};
 /* Whether y counts from the north */
 static const char *const schemes[] = {"tms", "xyz", NULL};
 
-/* The mesh whose triangles the tile has. A level of detail of it would be chosen here. */
+/*
+ * Opens the mesh, or a level of it. An error in pixels is no argument: it would be another level for the next row of
+ * tiles, and tiles of two levels have a gap between them.
+ */
 static Reader *
 open_mesh(FunctionCallInfo fcinfo)
 {
-	Reader	   *reader = reader_open(PG_GETARG_OID(MESH_MESH), CurrentMemoryContext);
+	Reader	   *reader = reader_open(level_argument(fcinfo, &mesh_level), CurrentMemoryContext);
 
 	header_require_dimension(&reader->header.facts.form, 2, "Use a mesh in the plane.");
 	header_require_attributes(&reader->header.facts);
@@ -60,7 +70,7 @@ plane_of(FunctionCallInfo fcinfo, const abacus_tile *tile, abacus_tile_mesh_form
 
 /*
  * abacus_tile_mesh(mesh regclass, z int, x int, y int, attribute text, srid int, world float8[],
- * format text, scheme text) -> bytea
+ * format text, scheme text, max_error float8) -> bytea
  */
 Datum
 abacus_sql_tile_mesh(PG_FUNCTION_ARGS)
