@@ -14,6 +14,7 @@ setUp(async () => {
 
 test("14 million points: the whole, a part, a triangle, a profile, a change", async () => {
     assert.equal(psql("SELECT value FROM abacus_stats('millions') WHERE name = 'vertices'"), String(columns * rows));
+    page.setDefaultTimeout(400_000); // beside other suites its first tiles take a while
     await open("millions");
     assert.match(await page.locator("#legend").innerText(), /height/);
     await display();
