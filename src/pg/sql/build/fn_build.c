@@ -15,14 +15,13 @@
  */
 #include "postgres.h"
 
-#include "access/xact.h"
 #include "executor/spi.h"
 #include "miscadmin.h"
-#include "nodes/parsenodes.h"
 #include "storage/lmgr.h"
 #include "utils/lsyscache.h"
 
 #include "abacus/build.h"
+#include "pg/base/commits.h"
 #include "pg/base/settings.h"
 #include "pg/base/sql_function.h"
 #include "pg/mesh/mesh_lines.h"
@@ -33,22 +32,6 @@
 #include "pg/track/pending.h"
 
 SQL_FUNCTION(abacus_sql_build);
-
-/* Whether the call may commit, checked before SPI_commit() would find that it may not. */
-static void
-check_commits(FunctionCallInfo fcinfo)
-{
-	bool		atomic = fcinfo->context == NULL || !IsA(fcinfo->context, CallContext) ||
-		castNode(CallContext, fcinfo->context)->atomic || IsSubTransaction();
-
-	if (atomic)
-		ereport(ERROR,
-				(errcode(ERRCODE_INVALID_TRANSACTION_TERMINATION),
-				 errmsg("abacus_build() cannot commit here"),
-				 errdetail("It ends a transaction after each batch."),
-				 errhint("CALL it outside transaction blocks, functions and exception blocks, or "
-						 "use abacus_triangulate().")));
-}
 
 /* Inserts one batch from where the header says; false if nothing could be inserted. */
 static bool
@@ -185,7 +168,7 @@ abacus_sql_build(PG_FUNCTION_ARGS)
 	Host	   *host;
 	PageTable  *simplices;
 
-	check_commits(fcinfo);
+	require_commits(fcinfo, "abacus_build", "batch", "abacus_triangulate");
 	if (PG_ARGISNULL(0) || PG_ARGISNULL(1))
 		ereport(ERROR,
 				(errcode(ERRCODE_NULL_VALUE_NOT_ALLOWED),

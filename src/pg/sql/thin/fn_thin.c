@@ -10,14 +10,13 @@
 #include <math.h>
 
 #include "access/table.h"
-#include "access/xact.h"
 #include "catalog/namespace.h"
 #include "executor/spi.h"
-#include "nodes/parsenodes.h"
 #include "storage/lmgr.h"
 #include "utils/builtins.h"
 #include "utils/lsyscache.h"
 
+#include "pg/base/commits.h"
 #include "pg/base/settings.h"
 #include "pg/base/sql_function.h"
 #include "pg/mesh/lines_table.h"
@@ -239,22 +238,6 @@ abacus_sql_thin(PG_FUNCTION_ARGS)
 
 /* ---- abacus_thin_build -------------------------------------------------------------------- */
 
-/* Whether the call may commit, checked before SPI_commit() would find that it may not. */
-static void
-check_commits(FunctionCallInfo fcinfo)
-{
-	bool		atomic = fcinfo->context == NULL || !IsA(fcinfo->context, CallContext) ||
-		castNode(CallContext, fcinfo->context)->atomic || IsSubTransaction();
-
-	if (atomic)
-		ereport(ERROR,
-				(errcode(ERRCODE_INVALID_TRANSACTION_TERMINATION),
-				 errmsg("abacus_thin_build() cannot commit here"),
-				 errdetail("It ends a transaction after each round."),
-				 errhint("CALL it outside transaction blocks, functions and exception blocks, or "
-						 "use abacus_thin().")));
-}
-
 static bool
 is_same_text(const char *a, const char *b)
 {
@@ -305,7 +288,7 @@ abacus_sql_thin_build(PG_FUNCTION_ARGS)
 	LockRelId	mesh_lock;
 	Relation	source;
 
-	check_commits(fcinfo);
+	require_commits(fcinfo, "abacus_thin_build", "round", "abacus_thin");
 	SPI_connect_ext(SPI_OPT_NONATOMIC); /* its memory outlives transactions */
 	thinning = read_arguments(fcinfo, "abacus_thin_build()");
 	thinner = &thinning->thinner;
