@@ -49,7 +49,8 @@ template <int D> std::uint64_t Constraining<D>::fix(Segments &segments) {
         std::array<std::uint64_t, segment_record_words> record;
         const std::uint64_t all = each(segments, [&](const Segment &s) {
             fill_segment(record.data(), s);
-            gathering_.gather_one(record.data(), segment_record_words, work_.domain.code(s.a));
+            const std::uint64_t code = work_.domain.code(s.a);
+            gathering_.gather(record.data(), segment_record_words, &code, 1);
         });
         gathering_.finish();
         return all;

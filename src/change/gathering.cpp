@@ -2,6 +2,8 @@
 
 #include "blocks/counters.hpp"
 #include "change/near_border.hpp"
+#include "host/shared_loop.hpp"
+#include "sort/pacer.hpp"
 #include "staging/rounds.hpp"
 
 #include <algorithm>
@@ -19,7 +21,7 @@ constexpr std::size_t worth_reserving = 1 << 15;
 /// Share of the memory that pages on their way to threads may take.
 constexpr std::size_t in_hand_share = 8;
 /// Points that are gathered between two looks at what threads ask for: some microseconds.
-constexpr std::size_t served_every = 64;
+constexpr std::size_t served_every = 256;
 /// For tests: points of an interval on average, unless there would be too many of them.
 constexpr std::size_t tiny_interval = 4, most_tiny_intervals = 256;
 
@@ -68,22 +70,31 @@ template <int D>
 void Gathering<D>::gather(const std::uint64_t *records, std::size_t n, std::size_t stride) {
     work_.with_codes(records, n, stride,
                      [&](const std::uint64_t *some, const std::uint64_t *codes, std::size_t count) {
-                         for (std::size_t i = 0; i < count; ++i)
-                             gather_one(some + i * stride, stride, codes[i]);
+                         gather(some, stride, codes, count);
                      });
 }
 
 template <int D>
-void Gathering<D>::gather_one(const std::uint64_t *record, std::size_t words, std::uint64_t code) {
-    const std::size_t n = gathered_.size();
-    const bool begins_round = n > 0 && code < gathered_.code(n - 1);
-    if (n >= most_gathered_ || (begins_round && !removes()))
-        change();
-    else if (begins_round)
-        gathered_.begin_run();
-    if (gathered_.size() == worth_reserving) gathered_.reserve(most_gathered_);
-    gathered_.add(record, words, code);
-    if (pass_ && gathered_.size() % served_every == 0) serve();
+void Gathering<D>::gather(const std::uint64_t *records, std::size_t words,
+                          const std::uint64_t *codes, std::size_t n) {
+    while (n > 0) {
+        const std::size_t had = gathered_.size();
+        const bool begins_round = had > 0 && codes[0] < gathered_.code(had - 1);
+        if (had >= most_gathered_ || (begins_round && !removes()))
+            change();
+        else if (begins_round)
+            gathered_.begin_run();
+        const std::size_t room = std::min(
+            {n, served_every, most_gathered_ - std::min(most_gathered_ - 1, gathered_.size())});
+        std::size_t some = 1; // of one round
+        while (some < room && codes[some - 1] <= codes[some]) ++some;
+        if (gathered_.size() >= worth_reserving) gathered_.reserve(most_gathered_);
+        gathered_.add(records, words, codes, some);
+        records += some * words;
+        codes += some;
+        n -= some;
+        if (pass_) serve();
+    }
 }
 
 template <int D> void Gathering<D>::serve() {
@@ -245,9 +256,22 @@ template <int D> void Gathering<D>::deal_with_left(std::size_t i) {
         user_->take_left(working_.record(i));
 }
 
-/// Of points with one code, which come one after the other, all or none: so of equal ones.
+/// Threads find the points, of 32 at a time. Of points with one code all or none are inserted: so
+/// of equal ones.
 template <int D> void Gathering<D>::insert_near_borders(const Cuts &cuts) {
-    NearBorder<D> border(work_.domain, cuts);
+    using Border = NearBorder<D>;
+    constexpr std::size_t together = Border::together;
+    const std::size_t n = working_.size();
+    Arena<typename Border::Marks> marks(host_);
+    marks.resize((n + together - 1) / together);
+    SharedLoop(host_).each_stretch(marks.size(), [&](std::size_t, std::size_t from, std::size_t to,
+                                                     const Host &host) {
+        Border border(work_.domain, cuts);
+        Pacer(host).each_piece(to - from, [&](std::size_t first, std::size_t end) {
+            for (std::size_t i = from + first; i < from + end; ++i)
+                marks[i] = border.marks(working_, i * together, std::min((i + 1) * together, n));
+        });
+    });
     Batch near(host_, working_.stride());
     const auto insert = [&] {
         if (near.size() > 0) user_->take(near.record(0), near.codes(), near.size());
@@ -257,16 +281,21 @@ template <int D> void Gathering<D>::insert_near_borders(const Cuts &cuts) {
     std::size_t kept = 0;
     std::uint64_t last = 0;
     bool is_near = false;
-    for (std::size_t begin = 0; begin < working_.size(); begin += border.together) {
-        const std::size_t end = std::min(begin + border.together, working_.size());
-        const bool may_be_near = border.look_at(working_, begin, end);
+    for (std::size_t group = 0; group < marks.size(); ++group) {
+        const std::size_t begin = group * together, end = std::min(begin + together, n);
+        if (marks[group] == 0 && !(is_near && working_.code(begin) == last)) {
+            is_near = false;
+            last = working_.code(end - 1);
+            working_.move(begin, end - begin, kept);
+            kept += end - begin;
+            continue;
+        }
         for (std::size_t i = begin; i < end; ++i) {
             const std::uint64_t code = working_.code(i);
-            if (i == 0 || code != last)
-                is_near = may_be_near && border.is_near(record_point<D>(working_.record(i)), code);
+            if (i == 0 || code != last) is_near = (marks[group] >> (i - begin) & 1) != 0;
             last = code;
             if (is_near)
-                near.add(working_.record(i), working_.code(i));
+                near.add(working_.record(i), code);
             else
                 working_.move(i, kept++);
             if (near.size() == Workspace<D>::most_at_once) insert();

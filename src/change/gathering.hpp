@@ -78,7 +78,9 @@ public:
     bool gathers() const;
     /// Records of points that are removed may come without attributes.
     void gather(const std::uint64_t *records, std::size_t n, std::size_t stride);
-    void gather_one(const std::uint64_t *record, std::size_t words, std::uint64_t code);
+    /// The next n, of `words` words each, with their codes.
+    void gather(const std::uint64_t *records, std::size_t words, const std::uint64_t *codes,
+                std::size_t n);
     /// After the last point: inserts the gathered points, or removes them.
     void finish();
     /// After a failure: stops threads that are at work.

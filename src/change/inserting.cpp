@@ -24,15 +24,21 @@ template <int D> void Inserting<D>::start(const std::array<const std::uint64_t *
 }
 
 template <int D> void Inserting<D>::add(const std::uint64_t *records, std::size_t n) {
-    const std::size_t stride = work_.record_size();
-    const bool is_shared = gathering_.gathers();
-    work_.with_codes(records, n, stride,
+    work_.with_codes(records, n, work_.record_size(),
                      [&](const std::uint64_t *some, const std::uint64_t *codes, std::size_t count) {
-                         if (work_.apart) store_attributes(some, codes, count);
-                         if (!is_shared) return take(some, codes, count);
-                         for (std::size_t i = 0; i < count; ++i)
-                             gathering_.gather_one(some + i * stride, stride, codes[i]);
+                         add(some, codes, count);
                      });
+}
+
+template <int D>
+void Inserting<D>::add(const std::uint64_t *records, const std::uint64_t *codes, std::size_t n) {
+    const std::size_t stride = work_.record_size();
+    if (work_.apart) store_attributes(records, codes, n);
+    if (gathering_.gathers()) return gathering_.gather(records, stride, codes, n);
+    for (std::size_t some; n > 0; records += some * stride, codes += some, n -= some) {
+        some = std::min(n, Workspace<D>::most_at_once);
+        take(records, codes, some);
+    }
 }
 
 /// Of points that will be vertices, unless they meet one.

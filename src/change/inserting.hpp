@@ -33,6 +33,7 @@ public:
     void start(const std::array<const std::uint64_t *, D + 1> &records);
     /// Adds points, which may be gathered.
     void add(const std::uint64_t *records, std::size_t n);
+    void add(const std::uint64_t *records, const std::uint64_t *codes, std::size_t n);
     /// After the last.
     void finish() { gathering_.finish(); }
     /// While the next ones are looked for.

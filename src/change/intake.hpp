@@ -40,6 +40,16 @@ public:
         for (; n > 0 && !work_.has_simplices(); --n, records += stride) add(records);
         inserting_.add(records, n);
     }
+    bool takes_codes() const override { return true; }
+    void find_codes(const std::uint64_t *records, std::size_t n, std::size_t stride,
+                    std::uint64_t *codes) const override {
+        work_.find_codes(records, n, stride, codes);
+    }
+    void add(const std::uint64_t *records, const std::uint64_t *codes, std::size_t n,
+             std::size_t stride) override {
+        for (; n > 0 && !work_.has_simplices(); --n, records += stride, ++codes) add(records);
+        inserting_.add(records, codes, n);
+    }
     void finish() override {
         if (work_.has_simplices()) return inserting_.finish();
         if (!pages_) stage();

@@ -70,12 +70,17 @@ public:
         stride_ = stride;
     }
     std::size_t stride() const { return stride_; }
-    void add(const std::uint64_t *record, std::uint64_t code) { add(record, stride_, code); }
-    /// A record of at most this many words; words that are missing will not be read.
-    void add(const std::uint64_t *record, std::size_t words, std::uint64_t code) {
-        std::uint64_t *to = records_.extend(stride_);
-        for (std::size_t word = 0; word < std::min(words, stride_); ++word) to[word] = record[word];
-        codes_.push_back(code);
+    void add(const std::uint64_t *record, std::uint64_t code) { add(record, stride_, &code, 1); }
+    /// n records of `words` words each; words that are missing will not be read.
+    void add(const std::uint64_t *records, std::size_t words, const std::uint64_t *codes,
+             std::size_t n) {
+        std::uint64_t *to = records_.extend(n * stride_);
+        if (words == stride_)
+            std::copy_n(records, n * stride_, to);
+        else
+            for (std::size_t i = 0; i < n; ++i, records += words, to += stride_)
+                std::copy_n(records, std::min(words, stride_), to);
+        std::copy_n(codes, n, codes_.extend(n));
     }
     /// The next record is the first of another run.
     void begin_run() { later_runs_.push_back(size()); }
@@ -101,6 +106,12 @@ public:
         if (i == n) return;
         std::copy_n(record(i), stride_, records_.data() + n * stride_);
         codes_[n] = codes_[i];
+    }
+    /// Moves n from the i-th on.
+    void move(std::size_t i, std::size_t n, std::size_t to) {
+        if (i == to) return;
+        std::copy_n(record(i), n * stride_, records_.data() + to * stride_);
+        std::copy_n(codes() + i, n, codes_.data() + to);
     }
     void shorten(std::size_t size) {
         records_.resize(size * stride_);

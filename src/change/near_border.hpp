@@ -23,11 +23,27 @@ template <int D> class NearBorder {
 public:
     /// The number of points examined together.
     static constexpr std::size_t together = 32;
+    using Marks = std::uint32_t; ///< a bit for each of them
 
     NearBorder(const Domain<D> &domain, const Cuts &cuts) : domain_(domain), cuts_(cuts) {}
 
-    /// Examines the points [begin, end), at most `together` of them. False if none of them is near
-    /// a border.
+    /// Marks those of the points [begin, end), at most `together` of them, that are near a border.
+    /// Of points with one code, which come one after the other, all are marked or none.
+    Marks marks(const Batch &batch, std::size_t begin, std::size_t end) {
+        if (!look_at(batch, begin, end)) return 0;
+        Marks marks = 0;
+        bool marked = false;
+        for (std::size_t i = begin; i < end; ++i) {
+            const std::uint64_t code = batch.code(i);
+            if (i == begin || code != batch.code(i - 1))
+                marked = is_near(record_point<D>(batch.record(i)), code);
+            marks |= Marks{marked} << (i - begin);
+        }
+        return marks;
+    }
+
+private:
+    /// Examines the points. False if none of them is near a border.
     bool look_at(const Batch &batch, std::size_t begin, std::size_t end) {
         Box<D> box;
         for (std::size_t i = begin; i < end; ++i) box.extend(record_point<D>(batch.record(i)));
@@ -58,7 +74,6 @@ public:
         return false;
     }
 
-private:
     /// In distances between neighbours once all points are in. Measured.
     static constexpr double reach_in_steps = D == 2 ? 6 : 3.5;
 

@@ -34,6 +34,16 @@ public:
         gathering_.finish(); // if any points are left
         for (; n > 0; --n, records += stride) take_left(records);
     }
+    bool takes_codes() const override { return true; }
+    void find_codes(const std::uint64_t *records, std::size_t n, std::size_t stride,
+                    std::uint64_t *codes) const override {
+        work_.find_codes(records, n, stride, codes);
+    }
+    void add(const std::uint64_t *records, const std::uint64_t *codes, std::size_t n,
+             std::size_t stride) override {
+        if (is_shared()) return gathering_.gather(records, stride, codes, n);
+        add(records, n, stride);
+    }
     void finish() override {
         gathering_.finish();
         finish_here();

@@ -85,6 +85,12 @@ template <int D> struct Workspace {
     void flush();
     void report(abacus_phase phase, std::uint64_t done, std::uint64_t total);
 
+    /// For any thread.
+    void find_codes(const std::uint64_t *records, std::size_t n, std::size_t stride,
+                    std::uint64_t *codes) const {
+        for (std::size_t i = 0; i < n; ++i)
+            codes[i] = domain.code(record_point<D>(records + i * stride));
+    }
     /// Calls take(records, codes, n) for some points at a time, with their codes.
     template <class Take>
     void with_codes(const std::uint64_t *records, std::size_t n, std::size_t stride,
@@ -118,8 +124,7 @@ void Workspace<D>::with_codes(const std::uint64_t *records, std::size_t n, std::
     std::array<std::uint64_t, most_at_once> codes;
     while (n > 0) {
         const std::size_t some = std::min(n, codes.size());
-        for (std::size_t i = 0; i < some; ++i)
-            codes[i] = domain.code(record_point<D>(records + i * stride));
+        find_codes(records, some, stride, codes.data());
         take(records, codes.data(), some);
         records += some * stride;
         n -= some;

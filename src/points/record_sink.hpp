@@ -14,6 +14,16 @@ public:
     virtual void add(const std::uint64_t *records, std::size_t n, std::size_t stride) {
         for (; n > 0; --n, records += stride) add(records);
     }
+    /// Whether add() below saves it the work of finding codes.
+    virtual bool takes_codes() const { return false; }
+    /// Finds the codes of n records; for any thread.
+    virtual void find_codes(const std::uint64_t * /*records*/, std::size_t /*n*/,
+                            std::size_t /*stride*/, std::uint64_t * /*codes*/) const {}
+    /// Takes the next n with their codes.
+    virtual void add(const std::uint64_t *records, const std::uint64_t * /*codes*/, std::size_t n,
+                     std::size_t stride) {
+        add(records, n, stride);
+    }
     /// After the last point.
     virtual void finish() = 0;
     /// Called now and then while the next points are looked for.

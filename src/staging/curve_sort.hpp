@@ -36,6 +36,15 @@ public:
     /// The same for runs that follow one another; each gets the words at its place.
     const std::uint64_t *sort_each(const std::uint64_t *records, const Arena<Run> &runs,
                                    Pacer &pacer);
+    /// Words that nobody uses until the next call: as many as records were sorted.
+    std::uint64_t *free_words() { return scratch_; }
+    /// Calls piece(begin, end) for pieces of n records, in several threads.
+    template <class Piece> void each_piece(std::size_t n, Piece piece) {
+        const std::size_t pieces = (n + Pacer::stride - 1) / Pacer::stride;
+        shared_.each(pieces, [&](std::size_t i, const Host &) {
+            piece(i * Pacer::stride, std::min(n, (i + 1) * Pacer::stride));
+        });
+    }
     /// Whether several threads would sort so many records.
     bool is_shared(std::size_t n) const { return shared_.is_worth_while(n); }
     void release() { memory_.reset(); }

@@ -55,7 +55,7 @@ template <int D> void DistributorThreads<D>::bring() {
     blocks_[brought_ % blocks_.size()].n = std::exchange(filled_, 0);
     const std::lock_guard guard(lock_);
     ++brought_;
-    for_threads_.notify_all();
+    for_blocks_.notify_one();
 }
 
 template <int D> void DistributorThreads<D>::finish() {
@@ -63,7 +63,7 @@ template <int D> void DistributorThreads<D>::finish() {
     {
         const std::lock_guard guard(lock_);
         is_over_ = true;
-        for_threads_.notify_all();
+        for_blocks_.notify_all();
     }
     wait([&] { return dealt_ == brought_; });
     crew_.finish();
@@ -79,7 +79,7 @@ template <int D> void DistributorThreads<D>::empty_outbox() {
         const std::lock_guard guard(lock_);
         empty_.push_back(full->records);
         ++written_;
-        for_threads_.notify_all();
+        for_pieces_.notify_one();
     }
 }
 
@@ -97,7 +97,7 @@ template <int D> void DistributorThreads<D>::piece(std::size_t, const Host &) {
 
 template <int D> bool DistributorThreads<D>::take(std::uint64_t &number) {
     std::unique_lock guard(lock_);
-    for_threads_.wait(guard, [&] { return gives_up_ || is_over_ || taken_ < brought_; });
+    for_blocks_.wait(guard, [&] { return gives_up_ || is_over_ || taken_ < brought_; });
     if (gives_up_ || taken_ == brought_) return false;
     number = taken_++;
     return true;
@@ -105,7 +105,7 @@ template <int D> bool DistributorThreads<D>::take(std::uint64_t &number) {
 
 template <int D> bool DistributorThreads<D>::wait_for_turn(std::uint64_t number) {
     std::unique_lock guard(lock_);
-    for_threads_.wait(guard, [&] { return gives_up_ || dealt_ == number; });
+    for_turns_.wait(guard, [&] { return gives_up_ || dealt_ == number; });
     return !gives_up_;
 }
 
@@ -118,7 +118,7 @@ template <int D> bool DistributorThreads<D>::deal_out(const Block &block) {
 
 template <int D> bool DistributorThreads<D>::send(unsigned part) {
     std::unique_lock guard(lock_);
-    for_threads_.wait(guard, [&] { return gives_up_ || empty_.size() > 0; });
+    for_pieces_.wait(guard, [&] { return gives_up_ || empty_.size() > 0; });
     if (gives_up_) return false;
     std::uint64_t *const empty = empty_.back();
     empty_.pop_back();
@@ -130,14 +130,16 @@ template <int D> bool DistributorThreads<D>::send(unsigned part) {
 template <int D> void DistributorThreads<D>::count_dealt() {
     const std::lock_guard guard(lock_);
     ++dealt_;
-    for_threads_.notify_all();
+    for_turns_.notify_all();
     for_session_.notify_one();
 }
 
 template <int D> void DistributorThreads<D>::give_up() noexcept {
     const std::lock_guard guard(lock_);
     gives_up_ = true;
-    for_threads_.notify_all();
+    for_blocks_.notify_all();
+    for_turns_.notify_all();
+    for_pieces_.notify_all();
 }
 
 template class DistributorThreads<2>;

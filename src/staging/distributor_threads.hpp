@@ -94,7 +94,7 @@ private:
     Arena<std::uint64_t *> empty_;
     std::array<FullPiece, pieces> outbox_; ///< a ring
     std::mutex lock_;
-    std::condition_variable for_threads_, for_session_;
+    std::condition_variable for_blocks_, for_turns_, for_pieces_, for_session_;
     std::size_t filled_ = 0;                            ///< records of the block to be brought
     std::uint64_t brought_ = 0, taken_ = 0, dealt_ = 0; ///< blocks
     std::uint64_t sent_ = 0, written_ = 0;              ///< full pieces

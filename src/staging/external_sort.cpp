@@ -118,8 +118,7 @@ template <int D> void ExternalSort<D>::sort_together(Part<D> *parts, std::size_t
     for (std::size_t i = 0; i < n; ++i)
         read(parts[i].spool, records_.data() + runs[i].begin * stride_);
     const std::uint64_t *order = sort_.sort_each(records_.data(), runs, pacer_);
-    for (std::size_t i = 0; i < n; ++i)
-        emit(records_.data(), order + runs[i].begin, runs[i].end - runs[i].begin);
+    emit(records_.data(), order, end);
 }
 
 /// Reads all records of a spool, and closes it.
@@ -211,19 +210,46 @@ Arena<Part<D>> ExternalSort<D>::cut(Spool *spools, std::size_t n, const Slice<D>
 template <int D>
 void ExternalSort<D>::emit(const std::uint64_t *records, const std::uint64_t *order,
                            std::size_t n) {
+    if (sink_.takes_codes() && sort_.is_shared(n)) return emit_by_threads(records, order, n);
     gathered_.reserve(gathered_at_once * stride_);
     pacer_.each_piece(n, [&](std::size_t begin, std::size_t end) {
         for (std::size_t first = begin; first < end; first += gathered_at_once) {
             const std::size_t some = std::min(gathered_at_once, end - first);
-            std::uint64_t *to = gathered_.data();
-            for (std::size_t i = 0; i < some; ++i, to += stride_) {
-                const std::uint64_t *record = records + (order[first + i] & index_mask) * stride_;
-                for (std::size_t word = 0; word < stride_; ++word) to[word] = record[word];
-            }
+            gather(records, order + first, some, gathered_.data());
             sink_.add(gathered_.data(), some, stride_);
         }
         handed_on(end - begin);
     });
+}
+
+/// Copies records in their order.
+template <int D>
+void ExternalSort<D>::gather(const std::uint64_t *records, const std::uint64_t *order,
+                             std::size_t n, std::uint64_t *to) const {
+    for (std::size_t i = 0; i < n; ++i, to += stride_) {
+        const std::uint64_t *record = records + (order[i] & index_mask) * stride_;
+        for (std::size_t word = 0; word < stride_; ++word) to[word] = record[word];
+    }
+}
+
+/// As many at a time as the words that the sort no longer needs have room for, with their codes.
+template <int D>
+void ExternalSort<D>::emit_by_threads(const std::uint64_t *records, const std::uint64_t *order,
+                                      std::size_t n) {
+    const std::size_t room = std::max<std::size_t>(n / (stride_ + 1), 1);
+    std::uint64_t *const codes = sort_.free_words(), *const gathered = codes + room;
+    for (std::size_t first = 0; first < n; first += room) {
+        const std::size_t some = std::min(room, n - first);
+        sort_.each_piece(some, [&](std::size_t begin, std::size_t end) {
+            std::uint64_t *const to = gathered + begin * stride_;
+            gather(records, order + first + begin, end - begin, to);
+            sink_.find_codes(to, end - begin, stride_, codes + begin);
+        });
+        pacer_.each_piece(some, [&](std::size_t begin, std::size_t end) {
+            sink_.add(gathered + begin * stride_, codes + begin, end - begin, stride_);
+            handed_on(end - begin);
+        });
+    }
 }
 
 /// Equal points are already in order.

@@ -6,7 +6,8 @@
 // Points that share one code are cut by the codes of their bounding box. If that is a
 // single point they are in order already.
 //
-// With several threads some parts are read at once, and each is sorted by a thread.
+// With several threads some parts are read at once, and each is sorted by a thread. Threads also
+// bring the records together in their order, and find their codes, if the sink takes codes.
 #pragma once
 
 #include "points/record_sink.hpp"
@@ -55,6 +56,9 @@ private:
     void read(Spool &spool, std::uint64_t *to);
     Box<D> survey(Spool &spool);
     void emit(const std::uint64_t *records, const std::uint64_t *order, std::size_t n);
+    void gather(const std::uint64_t *records, const std::uint64_t *order, std::size_t n,
+                std::uint64_t *to) const;
+    void emit_by_threads(const std::uint64_t *records, const std::uint64_t *order, std::size_t n);
     void emit_as_is(Spool &spool);
     void handed_on(std::size_t n) {
         done_ += n;
