@@ -31,35 +31,36 @@ public:
     }
     /// The first point of a run of a batch that is in the interval, or behind it.
     std::size_t begin(std::size_t i, const Batch &batch, std::size_t run) const {
-        return static_cast<std::size_t>(std::lower_bound(batch.codes() + batch.run_begin(run),
-                                                         batch.codes() + batch.run_end(run),
-                                                         first_[i]) -
-                                        batch.codes());
+        return batch.first_from(first_[i], run);
     }
     std::size_t end(std::size_t i, const Batch &batch, std::size_t run) const {
         return i + 1 < size() ? begin(i + 1, batch, run) : batch.run_end(run);
     }
 
-    /// At most this many intervals, each with about as many points of the first run.
+    /// At most this many intervals, each with about as many points.
     void cut_evenly(const Batch &batch, std::size_t intervals) {
-        const std::size_t n = batch.run_end(0), share = n / intervals, leeway = share / 32;
+        const std::size_t n = batch.size(), share = n / intervals, leeway = share / 32;
         for (std::size_t i = 1; i < intervals; ++i) {
-            const std::uint64_t low = std::max(first_.back(), batch.code(share * i - leeway)),
-                                high = batch.code(std::min(share * i + leeway, n - 1));
+            const std::uint64_t low = std::max(first_.back(), code_at(batch, share * i - leeway)),
+                                high = code_at(batch, std::min(share * i + leeway, n - 1));
             if (low >= high) continue; // one code, whose points stay together
             // The border above `low`, up to `high`, that ends in most zeros.
             const int zeros = std::bit_width(low ^ high) - 1;
             first_.push_back(high >> zeros << zeros);
         }
     }
-    /// For tests: cuts anywhere, into intervals of any length, with this many points on average.
+    /// For tests: cuts anywhere, into intervals of any length, with this many points on average of
+    /// the largest run.
     void cut_at_random(const Batch &batch, std::size_t points) {
-        const std::size_t n = batch.run_end(0);
-        std::uint64_t state = n;
-        for (std::size_t i = 0;;) {
+        std::size_t run = 0;
+        for (std::size_t other = 1; other < batch.runs(); ++other)
+            if (batch.run_size(other) > batch.run_size(run)) run = other;
+        const std::size_t end = batch.run_end(run);
+        std::uint64_t state = batch.run_size(run);
+        for (std::size_t i = batch.run_begin(run);;) {
             state = (state ^ state >> 29) * 0xd6e8feb86659fd93 + 1;
             i += 1 + (state >> 40) % (2 * points);
-            if (i >= n) return;
+            if (i >= end) return;
             if (batch.code(i) > first_.back()) first_.push_back(batch.code(i));
         }
     }
@@ -70,6 +71,18 @@ public:
     }
 
 private:
+    /// The code that has this many points of all runs before it, or at it after others.
+    std::uint64_t code_at(const Batch &batch, std::size_t rank) const {
+        std::uint64_t code = 0;
+        for (std::uint64_t bit = std::bit_floor(key_word_end - 1); bit > 0; bit >>= 1) {
+            std::size_t before = 0;
+            for (std::size_t run = 0; run < batch.runs(); ++run)
+                before += batch.first_from(code | bit, run) - batch.run_begin(run);
+            if (before <= rank) code |= bit;
+        }
+        return code;
+    }
+
     Arena<std::uint64_t> first_;
 };
 

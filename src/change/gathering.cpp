@@ -3,6 +3,7 @@
 #include "blocks/counters.hpp"
 #include "change/near_border.hpp"
 #include "host/shared_loop.hpp"
+#include "keys/domain_of.hpp"
 #include "sort/pacer.hpp"
 #include "staging/rounds.hpp"
 
@@ -80,7 +81,7 @@ void Gathering<D>::gather(const std::uint64_t *records, std::size_t words,
     while (n > 0) {
         const std::size_t had = gathered_.size();
         const bool begins_round = had > 0 && codes[0] < gathered_.code(had - 1);
-        if (had >= most_gathered_ || (begins_round && !removes()))
+        if (had >= most_gathered_ || (begins_round && !takes_several_rounds()))
             change();
         else if (begins_round)
             gathered_.begin_run();
@@ -97,18 +98,27 @@ void Gathering<D>::gather(const std::uint64_t *records, std::size_t words,
     }
 }
 
+/// Whether the next round is dealt with together with this one. An early one is inserted here and
+/// now if it is small.
+template <int D> bool Gathering<D>::takes_several_rounds() const {
+    if (removes()) return true;
+    const std::size_t last = gathered_.run_size(gathered_.runs() - 1);
+    return host_.has_tiny_intervals() ? last % 2 == 0 : last >= worth_sharing<D>;
+}
+
 template <int D> void Gathering<D>::serve() {
     if (crew_->serve()) pass_->meanwhile();
 }
 
-/// An early round is hardly worth it: its mesh is in memory, and would have to be read again.
+/// Early rounds alone are hardly worth it: their mesh is in memory, and would have to be read
+/// again.
 template <int D> bool Gathering<D>::is_worth_sharing() const {
     constexpr std::size_t looked_at = 8; // those of the last round are promoted by chance
     const std::size_t n = gathered_.size();
     if (n < worth_sharing<D>) return false;
     if (user_->deed() != Deed::insert) return true;
-    for (std::size_t i = 0; i < looked_at; ++i)
-        if (!Rounds<D>::is_promoted(record_point<D>(gathered_.record(i)))) return true;
+    for (std::size_t i = 1; i <= std::min(looked_at, n); ++i)
+        if (!Rounds<D>::is_promoted(record_point<D>(gathered_.record(n - i)))) return true;
     return n >= (gathers_ahead_ ? most_gathered_ : most_gathered_ / 2);
 }
 
@@ -256,33 +266,46 @@ template <int D> void Gathering<D>::deal_with_left(std::size_t i) {
         user_->take_left(working_.record(i));
 }
 
+/// The points of one round after those of the other.
+template <int D> void Gathering<D>::insert_near_borders(const Cuts &cuts) {
+    Batch near(host_, working_.stride());
+    std::size_t kept = 0;
+    for (std::size_t run = 0; run < working_.runs(); ++run) {
+        const std::size_t begin = working_.run_begin(run), end = working_.run_end(run);
+        working_.set_run_begin(run, kept);
+        kept = insert_near_borders(cuts, begin, end, kept, near);
+    }
+    working_.shorten(kept);
+}
+
+/// Of points [from, to), which are of one round: moves the others to `kept` and returns their end.
 /// Threads find the points, of 32 at a time. Of points with one code all or none are inserted: so
 /// of equal ones.
-template <int D> void Gathering<D>::insert_near_borders(const Cuts &cuts) {
+template <int D>
+std::size_t Gathering<D>::insert_near_borders(const Cuts &cuts, std::size_t from, std::size_t to,
+                                              std::size_t kept, Batch &near) {
     using Border = NearBorder<D>;
     constexpr std::size_t together = Border::together;
-    const std::size_t n = working_.size();
     Arena<typename Border::Marks> marks(host_);
-    marks.resize((n + together - 1) / together);
-    SharedLoop(host_).each_stretch(marks.size(), [&](std::size_t, std::size_t from, std::size_t to,
-                                                     const Host &host) {
-        Border border(work_.domain, cuts);
-        Pacer(host).each_piece(to - from, [&](std::size_t first, std::size_t end) {
-            for (std::size_t i = from + first; i < from + end; ++i)
-                marks[i] = border.marks(working_, i * together, std::min((i + 1) * together, n));
+    marks.resize((to - from + together - 1) / together);
+    SharedLoop(host_).each_stretch(
+        marks.size(), [&](std::size_t, std::size_t first, std::size_t last, const Host &host) {
+            Border border(work_.domain, domain_box<D>(work_.facts->form), cuts);
+            Pacer(host).each_piece(last - first, [&](std::size_t begin, std::size_t end) {
+                for (std::size_t i = first + begin; i < first + end; ++i)
+                    marks[i] = border.marks(working_, from + i * together,
+                                            std::min(from + (i + 1) * together, to));
+            });
         });
-    });
-    Batch near(host_, working_.stride());
     const auto insert = [&] {
         if (near.size() > 0) user_->take(near.record(0), near.codes(), near.size());
         done_ += near.size();
         near.shorten(0);
     };
-    std::size_t kept = 0;
     std::uint64_t last = 0;
     bool is_near = false;
     for (std::size_t group = 0; group < marks.size(); ++group) {
-        const std::size_t begin = group * together, end = std::min(begin + together, n);
+        const std::size_t begin = from + group * together, end = std::min(begin + together, to);
         if (marks[group] == 0 && !(is_near && working_.code(begin) == last)) {
             is_near = false;
             last = working_.code(end - 1);
@@ -292,7 +315,7 @@ template <int D> void Gathering<D>::insert_near_borders(const Cuts &cuts) {
         }
         for (std::size_t i = begin; i < end; ++i) {
             const std::uint64_t code = working_.code(i);
-            if (i == 0 || code != last) is_near = (marks[group] >> (i - begin) & 1) != 0;
+            if (i == from || code != last) is_near = (marks[group] >> (i - begin) & 1) != 0;
             last = code;
             if (is_near)
                 near.add(working_.record(i), code);
@@ -303,7 +326,7 @@ template <int D> void Gathering<D>::insert_near_borders(const Cuts &cuts) {
         host_.poll();
     }
     insert();
-    working_.shorten(kept);
+    return kept;
 }
 
 template <int D> void Gathering<D>::hand_over(const Cuts &cuts) {

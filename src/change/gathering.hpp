@@ -104,6 +104,7 @@ private:
     /// The memory for the session's cache: with threads, what the gathered points leave.
     std::size_t own_cache_bytes() const;
     bool is_worth_sharing() const;
+    bool takes_several_rounds() const;
     Cuts cuts_for_threads() const;
     /// Inserts the gathered points, or begins to, or removes them.
     void change();
@@ -118,6 +119,8 @@ private:
     void take_results(const typename Interval<D>::Results &results, Arena<std::size_t> &put_off);
     /// Inserts gathered points that threads would put off.
     void insert_near_borders(const Cuts &cuts);
+    std::size_t insert_near_borders(const Cuts &cuts, std::size_t from, std::size_t to,
+                                    std::size_t kept, Batch &near);
     void report_pass(std::uint64_t done);
     /// Hands the pages to the threads and begins with an empty cache.
     void hand_over(const Cuts &cuts);

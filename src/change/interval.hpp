@@ -89,6 +89,15 @@ public:
     std::size_t run_end(std::size_t run) const {
         return run < later_runs_.size() ? later_runs_[run] : size();
     }
+    std::size_t run_size(std::size_t run) const { return run_end(run) - run_begin(run); }
+    void set_run_begin(std::size_t run, std::size_t at) {
+        if (run > 0) later_runs_[run - 1] = at;
+    }
+    /// The first of a run with this code or one behind it; the run's end if there is none.
+    std::size_t first_from(std::uint64_t code, std::size_t run) const {
+        return static_cast<std::size_t>(
+            std::lower_bound(codes() + run_begin(run), codes() + run_end(run), code) - codes());
+    }
     void reserve(std::size_t points) {
         records_.reserve(points * stride_);
         codes_.reserve(points);
