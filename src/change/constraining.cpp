@@ -147,8 +147,7 @@ template <int D>
 void Constraining<D>::regions_along(Segments &segments,
                                     const std::function<void(RegionNumber)> &visit) {
     with_regions([&](auto &mesh) {
-        Regions regions(mesh, RecordSort::least);
-        segments.each([&](const Segment &s) { regions.along(s.a, s.b, visit); });
+        segments.each([&](const Segment &s) { each_region_along(mesh, s.a, s.b, visit); });
     });
 }
 

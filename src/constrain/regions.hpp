@@ -13,6 +13,16 @@
 
 namespace abacus {
 
+/// Calls visit(region) for the regions on either side of each edge on the segment.
+template <class Visit>
+void each_region_along(Delaunay<2> &mesh, const Point<2> &a, const Point<2> &b, Visit visit) {
+    Cache<2> &cache = mesh.cache();
+    each_edge_on(mesh, a, b, [&](Link edge) {
+        for (const Handle h : {link_simplex(edge), right_of(cache, edge)})
+            if (const RegionNumber region = cache.region(h); region != no_region) visit(region);
+    });
+}
+
 class Regions {
 public:
     Regions(Delaunay<2> &mesh, std::size_t memory);
@@ -24,14 +34,6 @@ public:
     bool fill(RegionParts &parts, const Report &report, abacus_region_fault &fault);
     /// Takes all triangles out of the regions that have these parts.
     void clear(RegionParts &parts);
-    /// Calls visit(region) for the regions on either side of each edge on the segment.
-    template <class Visit> void along(const Point<2> &a, const Point<2> &b, Visit visit) {
-        each_edge_on(mesh_, a, b, [&](Link edge) {
-            for (const Handle h : {link_simplex(edge), right_of(cache_, edge)})
-                if (const RegionNumber region = cache_.region(h); region != no_region)
-                    visit(region);
-        });
-    }
     /// A triangle of the face in which a seed of a region lies; no_handle, and `fault` says why, if
     /// there is none.
     Handle at_seed(RegionNumber region, const Point<2> &p, abacus_region_fault &fault);
