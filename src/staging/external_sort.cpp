@@ -210,7 +210,8 @@ Arena<Part<D>> ExternalSort<D>::cut(Spool *spools, std::size_t n, const Slice<D>
 template <int D>
 void ExternalSort<D>::emit(const std::uint64_t *records, const std::uint64_t *order,
                            std::size_t n) {
-    if (sink_.takes_codes() && sort_.is_shared(n)) return emit_by_threads(records, order, n);
+    if (sink_.takes_codes() && sort_.is_shared(n) && n > stride_)
+        return emit_by_threads(records, order, n);
     gathered_.reserve(gathered_at_once * stride_);
     pacer_.each_piece(n, [&](std::size_t begin, std::size_t end) {
         for (std::size_t first = begin; first < end; first += gathered_at_once) {
@@ -236,7 +237,7 @@ void ExternalSort<D>::gather(const std::uint64_t *records, const std::uint64_t *
 template <int D>
 void ExternalSort<D>::emit_by_threads(const std::uint64_t *records, const std::uint64_t *order,
                                       std::size_t n) {
-    const std::size_t room = std::max<std::size_t>(n / (stride_ + 1), 1);
+    const std::size_t room = n / (stride_ + 1);
     std::uint64_t *const codes = sort_.free_words(), *const gathered = codes + room;
     for (std::size_t first = 0; first < n; first += room) {
         const std::size_t some = std::min(room, n - first);
