@@ -43,12 +43,10 @@ template <int D> template <class IsReady> void DistributorThreads<D>::wait(IsRea
     }
 }
 
-template <int D> void DistributorThreads<D>::add(const std::uint64_t *records, std::size_t n) {
+template <int D> std::uint64_t *DistributorThreads<D>::room(std::size_t n) {
     if (filled_ + n > room_) bring();
     if (filled_ == 0) wait([&] { return brought_ - dealt_ < blocks_.size(); });
-    Block &block = blocks_[brought_ % blocks_.size()];
-    std::copy_n(records, n * stride_, block.records + filled_ * stride_);
-    filled_ += n;
+    return blocks_[brought_ % blocks_.size()].records + filled_ * stride_;
 }
 
 template <int D> void DistributorThreads<D>::bring() {

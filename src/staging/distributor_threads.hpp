@@ -36,7 +36,13 @@ public:
     /// Starts the threads; false if the system grants none.
     bool begin() { return crew_.begin(threads_, threads_, *this); }
     /// Adds at most a piece of records.
-    void add(const std::uint64_t *records, std::size_t n);
+    void add(const std::uint64_t *records, std::size_t n) {
+        std::copy_n(records, n * stride_, room(n));
+        fill(n);
+    }
+    /// The same in two steps: room for the records, which fill() adds.
+    std::uint64_t *room(std::size_t n);
+    void fill(std::size_t n) { filled_ += n; }
     /// After the last record. The distributor may be finished then, as long as this is there.
     void finish();
 

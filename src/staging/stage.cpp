@@ -32,7 +32,7 @@ template <int D> void Stage<D>::add(const std::uint64_t *points, std::size_t cou
         while (count > 0) {
             if (buffered_ == room_) spill();
             const std::size_t n = std::min({count, room_ - buffered_, Pacer::stride});
-            copy(points, n);
+            threads_ ? hand_to_threads(points, n) : fill_buffer(points, n);
             points += n * stride_;
             count -= n;
             pacer_.reached(this->points());
@@ -43,20 +43,24 @@ template <int D> void Stage<D>::add(const std::uint64_t *points, std::size_t cou
     }
 }
 
-/// Copies records to the buffer, which has room for them, in canonical form.
-template <int D> void Stage<D>::copy(const std::uint64_t *points, std::size_t count) {
+/// The buffer has room for them.
+template <int D> void Stage<D>::fill_buffer(const std::uint64_t *points, std::size_t count) {
     const std::size_t needed = (buffered_ + count) * stride_;
     if (needed > buffer_.capacity())
         buffer_.reserve(std::min(room_ * stride_,
                                  std::max({needed, 2 * buffer_.capacity(), std::size_t{16384}})));
     buffer_.resize(needed);
-    std::uint64_t *to = buffer_.data() + buffered_ * stride_;
+    copy(points, count, buffer_.data() + buffered_ * stride_);
+    buffered_ += count;
+}
+
+template <int D>
+void Stage<D>::copy(const std::uint64_t *points, std::size_t count, std::uint64_t *to) {
     for (std::size_t i = 0; i < count; ++i, points += stride_, to += stride_) {
         for (std::size_t word = 0; word < stride_; ++word) to[word] = points[word];
         make_canonical<D>(to);
         spread_.add(record_point<D>(to));
     }
-    buffered_ += count;
     if (!domain_) return;
     const Box<D> inside(domain_->lower(), domain_->upper());
     if (inside.contains(spread_.box().lower) && inside.contains(spread_.box().upper)) return;
@@ -70,9 +74,8 @@ template <int D> void Stage<D>::spill() {
         sample_.add(record_point<D>(buffer_.data() + i * stride_));
     if (spilled_ == 0)
         begin_to_distribute();
-    else if (distributor_ && !domain_ && !(spread_.box() == distributed_) &&
-             !is_distributed_over(domain_so_far()))
-        stop_distributing();
+    else
+        look_at_domain();
     for (std::size_t at = 0; at < buffered_;) {
         const std::size_t n = std::min(buffered_ - at, budget_.piece);
         const std::uint64_t *records = buffer_.data() + at * stride_;
@@ -88,6 +91,21 @@ template <int D> void Stage<D>::spill() {
     if (room_ == budget_.piece) return;
     buffer_.reset();
     room_ = budget_.piece;
+}
+
+template <int D> void Stage<D>::look_at_domain() {
+    if (distributor_ && !domain_ && !(spread_.box() == distributed_) &&
+        !is_distributed_over(domain_so_far()))
+        stop_distributing();
+}
+
+template <int D> void Stage<D>::hand_to_threads(const std::uint64_t *points, std::size_t count) {
+    std::uint64_t *const records = threads_->room(count);
+    copy(points, count, records);
+    threads_->fill(count);
+    for (std::size_t i = 0; i < count; ++i) sample_.add(record_point<D>(records + i * stride_));
+    spilled_ += count;
+    look_at_domain();
 }
 
 template <int D> void Stage<D>::begin_to_distribute() {

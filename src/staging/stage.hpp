@@ -53,8 +53,12 @@ public:
     std::size_t memory() const { return memory_; }
 
 private:
-    void copy(const std::uint64_t *points, std::size_t count);
+    /// Copies records in canonical form.
+    void copy(const std::uint64_t *points, std::size_t count, std::uint64_t *to);
+    void fill_buffer(const std::uint64_t *points, std::size_t count);
     void spill();
+    /// Copies records to where the threads take them from.
+    void hand_to_threads(const std::uint64_t *points, std::size_t count);
     /// Begins to distribute the points that come, if they are enough for several
     /// rounds.
     void begin_to_distribute();
@@ -63,6 +67,8 @@ private:
     /// Ends it: its parts in their order.
     Arena<Part<D>> finish_distributing();
     void stop_distributing();
+    /// Ends it as well if the points so far have another domain than the first ones.
+    void look_at_domain();
     /// What the points so far would have.
     Domain<D> domain_so_far();
     bool is_distributed_over(const Domain<D> &domain) const;
