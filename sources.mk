@@ -46,6 +46,7 @@ CORE.geometry += src/geometry/exact_sum.cpp
 CORE.draw += src/draw/camera.cpp
 CORE.draw += src/draw/canvas.cpp
 CORE.draw += src/draw/captions.cpp
+CORE.draw += src/draw/contour_labels.cpp
 CORE.draw += src/draw/develop.cpp
 CORE.draw += src/draw/frame.cpp
 CORE.draw += src/draw/letters.cpp

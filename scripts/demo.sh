@@ -165,6 +165,8 @@ timed "draw the terrain, shaded" draw terrain.png \
     "SELECT abacus_draw('terrain', width => 1200, attribute => 'height', edges => false, exaggeration => 2)"
 timed "draw the terrain as a map" draw terrain_map.png \
     "SELECT abacus_draw('terrain', width => 560, attribute => 'height', edges => false, exaggeration => 2, contours => 50, legend => 'height (m)', scale_bar => 'm')"
+timed "draw it with heights on contours" draw contour_labels.png \
+    "SELECT abacus_draw('terrain', width => 560, attribute => 'height', edges => false, exaggeration => 2, contours => 20, contour_labels => true, lower => '{11000,9000}', upper => '{17000,13500}')"
 timed "draw a section across the basin" draw basin_section.png \
     "SELECT abacus_draw_section('quake', '{52000,45000,0}', '{0.6,0.8,0}', width => 1600, attribute => 'vs')"
 timed "draw the rim of the basin, closer" draw basin_rim.png \

@@ -26,6 +26,11 @@ FROM (VALUES ('{100,200}'::float8[]), ('{1000,1001}'), ('{1e9,1e300}')) AS r (ra
 SELECT png(abacus_draw('hills', 300, ramp => 'viridis', attribute => 'height', contours => 4, legend => 'µg/m³', scale_bar => '', transparent => true)) AS map,
        png(abacus_draw_section('rock', '{3,2,-2}', '{0,1,0}', 300, attribute => 'vs', contours => 0.5, legend => '', scale_bar => 'm', ramp => 'magma', transparent => true)) AS section,
        png(abacus_draw('hills', 300, legend => NULL, contours => NULL, ramp => NULL, light => NULL, scale_bar => 'm', transparent => NULL)) AS mesh;
+-- values on contours: the line has gaps for them, and each fifth is wider
+SELECT abacus_draw('hills', 300, attribute => 'height', contours => 2, contour_labels => true) <> abacus_draw('hills', 300, attribute => 'height', contours => 2) AS is_drawn,
+       abacus_draw('hills', 300, attribute => 'height', contours => 2, contour_labels => true) = abacus_draw('hills', 300, attribute => 'height', contours => 2, contour_labels => true) AS same_again,
+       abacus_draw('hills', 300, attribute => 'height', contours => 2, contour_labels => false) = abacus_draw('hills', 300, attribute => 'height', contours => 2, contour_labels => NULL) AS off;
+SELECT abacus_draw('hills', 40, attribute => 'height', contour_labels => true) = abacus_draw('hills', 40, attribute => 'height') AS same;
 -- without values these have no effect, which is told
 SELECT abacus_draw('hills', 40, ramp => 'grey', contours => 2, legend => 'm', light => '{0,45}') = abacus_draw('hills', 40) AS same;
 SELECT abacus_draw('hills', 40, attribute => 'height', light => '{0,45}') = abacus_draw('hills', 40, attribute => 'height') AS same;

@@ -42,6 +42,10 @@ typedef struct abacus_drawing
 	double light[2];           /* where it is: degrees from north, clockwise; degrees above the
 	                              horizon, over 0 to 90. 0 there: in the north-west, 45 degrees high */
 	double contour_interval;   /* lines at its multiples, within the range; 0 = none */
+	int32_t contour_labels;    /* 1: each fifth contour, counted from 0, is wider and has its value;
+	                              of a mesh of dimension 2 only */
+	size_t memory;             /* ... which takes so many bytes, spools beyond that, and memory for
+	                              the longest contour */
 	int32_t transparent;       /* 1: nothing is behind the mesh */
 	const char *legend;        /* the colours and their values, with this above them, the unit of
 	                              values or a title, in UTF-8; NULL = none */

@@ -20,12 +20,13 @@ CREATE FUNCTION abacus_draw(
     within text DEFAULT NULL,
     regions boolean DEFAULT false,
     lines boolean DEFAULT false,
-    max_error double precision DEFAULT NULL)
+    max_error double precision DEFAULT NULL,
+    contour_labels boolean DEFAULT false)
 RETURNS bytea
 AS 'MODULE_PATHNAME', 'abacus_sql_draw'
 LANGUAGE C STABLE PARALLEL SAFE COST 1000000;
-COMMENT ON FUNCTION abacus_draw(regclass, integer, integer, double precision[], double precision[], text, boolean, double precision, double precision, double precision[], text, double precision, text, text, boolean, double precision[], text, boolean, boolean, double precision) IS
-    'a PNG of a mesh in the plane or of a quadtree, or of a window of it. An attribute gives colour, from the first value of range to the second, and, with exaggeration above 0, hill shading. Contours are drawn at the multiples of a value; legend is a unit or a title, scale_bar the unit of the coordinates. within is the name of a region of the mesh, or a polygon as WKT, EWKT or hexadecimal EWKB; all else is as outside of the mesh. regions tints each region in a colour of its own, and draws its border and the fixed edges in it; lines draws all fixed edges, soft ones thinner. max_error draws the coarsest level of abacus_levels whose error is not greater. Shapes: lower and upper are {x, y}; range is {first, last}; light is {direction, height}. Units: width and height in pixels; lower, upper and max_edge in those of the coordinates; range, contours and max_error in those of the attribute; light in degrees. Errors: 22023 a mesh of dimension 3, a size, window, factor, range, ramp, contours or light out of range; 2202E other lengths; 42703 no such attribute; 42704 no such region; 55000 max_error without levels';
+COMMENT ON FUNCTION abacus_draw(regclass, integer, integer, double precision[], double precision[], text, boolean, double precision, double precision, double precision[], text, double precision, text, text, boolean, double precision[], text, boolean, boolean, double precision, boolean) IS
+    'a PNG of a mesh in the plane or of a quadtree, or of a window of it. An attribute gives colour, from the first value of range to the second, and, with exaggeration above 0, hill shading. Contours are drawn at the multiples of a value; legend is a unit or a title, scale_bar the unit of the coordinates. within is the name of a region of the mesh, or a polygon as WKT, EWKT or hexadecimal EWKB; all else is as outside of the mesh. regions tints each region in a colour of its own, and draws its border and the fixed edges in it; lines draws all fixed edges, soft ones thinner. max_error draws the coarsest level of abacus_levels whose error is not greater. contour_labels widens each fifth contour and writes its value on it. Shapes: lower and upper are {x, y}; range is {first, last}; light is {direction, height}. Units: width and height in pixels; lower, upper and max_edge in those of the coordinates; range, contours and max_error in those of the attribute; light in degrees. Errors: 22023 a mesh of dimension 3, a size, window, factor, range, ramp, contours or light out of range; 2202E other lengths; 42703 no such attribute; 42704 no such region; 55000 max_error without levels';
 
 CREATE FUNCTION abacus_draw_section(
     mesh regclass,

@@ -16,8 +16,10 @@ constexpr double full_width = 1.0;
 constexpr double half_radius = 2.0;
 // Below this radius edges are not drawn one by one: their ink is a tone.
 constexpr double tone_radius = 0.6;
-// Width of contours, pixels; and the most contours of a range: more could not be distinguished.
-constexpr double contour_width = 1.0;
+// Width of contours, pixels, and of each fifth where these have values; and the most contours of a
+// range: more could not be distinguished.
+constexpr double contour_width = 1.0, index_width = 1.75;
+constexpr int index_every = 5;
 constexpr int most_contours = 1000;
 
 // A triangle with an inscribed circle of radius r has a perimeter of 2 area / r. For other patches
@@ -96,7 +98,8 @@ Canvas::Canvas(const Host &host, const abacus_drawing &drawing, double low, doub
     : host_(&host), drawing_(Extent(drawing).drawing()), low_(low), high_(high), margin_(margin),
       width_(drawing_.width + 2 * margin), height_(drawing_.height + 2 * margin),
       frame_(drawing_, margin), range_(low, high), raster_(host, width_, height_),
-      overlay_(host, drawing_, width_, height_), pixels_(host), contours_(host), heights_(host) {
+      overlay_(host, drawing_, width_, height_), pixels_(host),
+      labels_(host, width_, height_, margin), path_(host), contours_(host), heights_(host) {
     const bool has_contours = drawing_.contour_interval > 0 && has_values();
     if (has_contours && !((high / 2 - low / 2) / drawing_.contour_interval < most_contours / 2))
         throw Error(ABACUS_ERROR_ARGUMENT, "contours are too close to one another",
@@ -233,9 +236,27 @@ void Canvas::contour(const Patch &p, const double (&values)[Patch::most]) {
                 at[crossings][axis] = std::lerp(p.corner[a][axis], p.corner[b][axis], share);
             ++crossings;
         }
-        if (crossings == 2) raster_.line(at[0], at[1], contour_width, ink);
+        const bool is_index =
+            drawing_.contour_labels != 0 && std::fmod(first + n, index_every) == 0;
+        if (crossings == 2) raster_.line(at[0], at[1], is_index ? index_width : contour_width, ink);
         host_->poll();
     }
+}
+
+Arena<double> Canvas::labelled_levels() const {
+    Arena<double> levels(*host_);
+    if (contours_.empty() || drawing_.contour_labels == 0) return levels;
+    const double interval = drawing_.contour_interval;
+    const double first = std::ceil(low_ / interval / index_every);
+    const double count = std::floor(high_ / interval / index_every) - first;
+    for (int n = 0; n <= count; ++n) levels.push_back((first + n) * index_every * interval);
+    return levels;
+}
+
+void Canvas::label(double value, std::span<const Point<2>> path) {
+    path_.clear();
+    for (const Point<2> &p : path) path_.push_back({frame_.x(p[0]), frame_.y(p[1])});
+    labels_.add(value, {path_.data(), path_.size()});
 }
 
 void Canvas::leave_only(
@@ -273,7 +294,11 @@ bool Canvas::is_blank() const {
 }
 
 Png Canvas::png(const Palette &palette, double unit) {
+    labels_.each_pixel(raster_, [&](std::int32_t x, std::int32_t y, double covered) {
+        contours_[static_cast<std::size_t>(y) * width_ + x] *= static_cast<float>(1 - covered);
+    });
     Picture picture = drawing_.attribute >= 0 ? values(palette) : mesh();
+    labels_.paint(picture);
     if (drawing_.attribute >= 0 && drawing_.legend != nullptr && has_values())
         add_legend(picture, palette, low_, high_, drawing_.legend);
     if (drawing_.scale_bar != nullptr)

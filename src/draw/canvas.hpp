@@ -20,6 +20,7 @@
 // below a bound however fine the mesh is: an etching, not a blot.
 #pragma once
 
+#include "draw/contour_labels.hpp"
 #include "draw/frame.hpp"
 #include "draw/overlay.hpp"
 #include "draw/palette.hpp"
@@ -53,6 +54,12 @@ public:
     void leave_only(const std::function<void(const std::function<void(const Patch &)> &)> &each);
     /// The fixed edges of a patch alone.
     void add_edges(const Patch &patch);
+
+    /// The levels whose contours get their values, in ascending order; none if they get none.
+    Arena<double> labelled_levels() const;
+    /// Writes the value of a contour on it where there is room; `path` is in coordinates.
+    void label(double value, std::span<const Point<2>> path);
+    const abacus_drawing &drawing() const { return drawing_; }
 
     /// Whether no patch so far covers anything of the picture.
     bool is_blank() const;
@@ -114,6 +121,8 @@ private:
     Raster raster_;
     Overlay overlay_;
     Arena<Pixel> pixels_;
+    ContourLabels labels_;
+    Arena<Point<2>> path_;  // of a contour, in pixels
     Arena<float> contours_; // shares of pixels under them; empty if there are none
     Arena<double> heights_; // shares of patches with values, times the value; empty unless shaded
 };

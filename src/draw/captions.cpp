@@ -13,10 +13,7 @@ namespace abacus {
 
 namespace {
 
-/// Sizes grow with the picture, so that a caption remains readable.
-double scale_of(const Picture &picture) {
-    return std::clamp(std::min(picture.width(), picture.height()) / 500.0, 0.8, 4.0);
-}
+double scale_of(const Picture &picture) { return caption_scale(picture.width(), picture.height()); }
 
 double letter_height(double scale) { return 9 * scale; }
 
@@ -35,6 +32,10 @@ void panel(cairo_t *pen, double x, double y, double width, double height) {
 }
 
 } // namespace
+
+double caption_scale(std::int32_t width, std::int32_t height) {
+    return std::clamp(std::min(width, height) / 500.0, 0.8, 4.0);
+}
 
 double round_step(double x) {
     const double power = std::pow(10.0, std::floor(std::log10(x)));

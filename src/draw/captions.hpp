@@ -8,6 +8,8 @@
 
 namespace abacus {
 
+/// Sizes grow with the picture, so that a caption remains readable.
+double caption_scale(std::int32_t width, std::int32_t height);
 /// The least number of 1, 2 or 5 times a power of ten that is not below x, which is positive.
 double round_step(double x);
 /// A multiple of such a step, with no more digits than it needs.

@@ -148,7 +148,8 @@ double text_width(std::string_view text, double height) {
     return each_letter(text, [](const Letter &, double) {}) * height / grid_height;
 }
 
-void draw_text(cairo_t *pen, double x, double baseline, std::string_view text, double height) {
+void draw_text(cairo_t *pen, double x, double baseline, std::string_view text, double height,
+               double width) {
     const double scale = height / grid_height;
     each_letter(text, [&](const Letter &letter, double from) {
         bool is_first = true;
@@ -165,7 +166,7 @@ void draw_text(cairo_t *pen, double x, double baseline, std::string_view text, d
             s += 2;
         }
     });
-    cairo_set_line_width(pen, height * 0.15);
+    cairo_set_line_width(pen, height * width);
     cairo_set_line_cap(pen, CAIRO_LINE_CAP_ROUND);
     cairo_set_line_join(pen, CAIRO_LINE_JOIN_ROUND);
     cairo_stroke(pen);

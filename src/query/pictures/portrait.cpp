@@ -3,6 +3,7 @@
 #include "draw/section.hpp"
 #include "geometry/clip_trapezoid.hpp"
 #include "geometry/map_plane.hpp"
+#include "query/levels/contours.hpp"
 #include "query/pages/extent.hpp"
 #include "query/pages/page_values.hpp"
 #include "query/scan/extent_pages.hpp"
@@ -228,6 +229,28 @@ void stream(RangeScan<D> &pages, View &view, Picture &picture) {
     }
 }
 
+/// Writes values on contours, if the drawing wants them.
+void label_contours(const Host &host, const abacus_facts &facts, const abacus_drawing &drawing,
+                    Canvas &canvas) {
+    const Arena<double> levels = canvas.labelled_levels();
+    if (levels.empty()) return;
+    abacus_contouring contouring{};
+    contouring.attribute = static_cast<std::uint32_t>(drawing.attribute);
+    contouring.fixed = levels.data();
+    contouring.fixed_count = levels.size();
+    contouring.extent = drawing.extent;
+    abacus_window window{};
+    window.kind = ABACUS_BOX_WINDOW;
+    std::copy_n(canvas.drawing().lower, 2, window.lower);
+    std::copy_n(canvas.drawing().upper, 2, window.upper);
+    const auto report = [](void *to, std::int64_t, double value, std::int32_t, const double *path,
+                           std::size_t count) {
+        static_cast<Canvas *>(to)->label(value, {reinterpret_cast<const Point<2> *>(path), count});
+        return ABACUS_HOST_OK;
+    };
+    Contours(host, facts, window, contouring, drawing.memory).each(report, &canvas);
+}
+
 /// `region` is the part that the drawing shows with its margin; null: the whole mesh.
 template <int D, class View>
 Portrait draw(const Host &host, const abacus_facts &facts, const abacus_drawing &drawing,
@@ -237,8 +260,10 @@ Portrait draw(const Host &host, const abacus_facts &facts, const abacus_drawing 
     const auto show = [&](auto &picture) {
         if (std::exchange(again, true)) pages.rewind();
         stream(pages, view, picture);
-        if constexpr (D == 2 && std::is_same_v<decltype(picture), Canvas &>)
+        if constexpr (D == 2 && std::is_same_v<decltype(picture), Canvas &>) {
             leave_polygon(drawing, picture);
+            label_contours(host, facts, drawing, picture);
+        }
     };
     return draw_patches(host, facts, drawing, margin, usual, View::unit, show);
 }

@@ -12,6 +12,7 @@
 #include "utils/memutils.h"
 
 #include "abacus/raycast.h"
+#include "pg/base/settings.h"
 #include "pg/base/sql_function.h"
 #include "pg/mesh/reader.h"
 #include "pg/mesh/shape.h"
@@ -55,7 +56,8 @@ enum
 	DRAW_WITHIN,
 	DRAW_REGIONS,
 	DRAW_LINES,
-	DRAW_MAX_ERROR
+	DRAW_MAX_ERROR,
+	DRAW_CONTOUR_LABELS
 };
 
 /* Arguments of abacus_draw_section */
@@ -190,6 +192,16 @@ leave_contours_out(const abacus_facts *facts, abacus_drawing *drawing)
 	ereport(NOTICE, (errmsg("contours has no effect on %s", is_octree ? "an octree" : "a label")));
 }
 
+/* Values on contours; a notice if there are none. */
+static void
+contour_labels(FunctionCallInfo fcinfo, abacus_drawing *drawing)
+{
+	drawing->contour_labels = drawing_flag(fcinfo, DRAW_CONTOUR_LABELS);
+	drawing->memory = setting_query_sort_bytes() + setting_cache_bytes();
+	if (drawing->contour_labels && drawing->contour_interval == 0)
+		ereport(NOTICE, (errmsg("contour_labels has no effect without contours")));
+}
+
 /* Reports why a picture shows nothing; `place` is where nothing is. */
 static void
 tell_blank(const Reader *reader, const abacus_drawing *drawing, const char *cells,
@@ -218,7 +230,7 @@ tell_blank(const Reader *reader, const abacus_drawing *drawing, const char *cell
  * upper float8[], attribute text, edges boolean, exaggeration float8,
  * max_edge float8, range float8[], ramp text, contours float8, legend text,
  * scale_bar text, transparent boolean, light float8[], within text,
- * regions boolean, lines boolean, max_error float8) -> bytea
+ * regions boolean, lines boolean, max_error float8, contour_labels boolean) -> bytea
  */
 Datum
 abacus_sql_draw(PG_FUNCTION_ARGS)
@@ -249,6 +261,7 @@ abacus_sql_draw(PG_FUNCTION_ARGS)
 	drawing_range(fcinfo, DRAW_RANGE, &drawing);
 	style(fcinfo, DRAW_STYLE, &drawing);
 	leave_contours_out(&reader->header.facts, &drawing);
+	contour_labels(fcinfo, &drawing);
 	light(fcinfo, DRAW_LIGHT, &drawing);
 	overlay(fcinfo, &reader->header.facts.census, &drawing);
 	if (drawing.exaggeration > 0 && drawing.attribute < 0)
