@@ -318,6 +318,7 @@ PG_SOURCES += src/pg/host/temp_room.c
 PG_SOURCES += src/pg/input/row_errors.c
 PG_SOURCES += src/pg/input/row_packer.c
 PG_SOURCES += src/pg/input/source.c
+PG_SOURCES += src/pg/levels/levels_lock.c
 PG_SOURCES += src/pg/levels/levels_table.c
 PG_SOURCES += src/pg/lines/followed_lines.c
 PG_SOURCES += src/pg/lines/followed_points.c

@@ -135,6 +135,63 @@ DROP TABLE detail_level_2;
 SELECT abacus_draw('detail', max_error => 8);
 SELECT abacus_levels_refresh('detail');
 SELECT abacus_levels_drop('detail');
+-- a table of levels that was changed by hand: all levels are found
+SELECT count(*) FROM abacus_levels('detail', '{1,8,20}', 'height');
+DELETE FROM detail_levels WHERE level = 2;
+SELECT name, value FROM abacus_stats('detail') WHERE name LIKE 'levels%';
+SELECT abacus_levels_refresh('detail');
+SELECT abacus_levels_drop('detail');
+SELECT count(*) FROM pg_class WHERE relname LIKE 'detail_level%';
+SELECT count(*) FROM abacus_levels('detail', '{1,8}', 'height');
+CREATE TABLE bystander_points AS SELECT * FROM detail_ground WHERE id < 500;
+SELECT count(*) FROM abacus_triangulate('bystander', 'TABLE bystander_points');
+UPDATE detail_levels SET mesh = 'bystander' WHERE level = 2;
+SELECT name, value FROM abacus_stats('detail') WHERE name LIKE 'levels%';
+SELECT abacus_levels_refresh('detail');
+SELECT abacus_levels_drop('detail');
+SELECT count(*) > 0 AS is_there FROM abacus_vertices('bystander');
+DROP TABLE bystander, bystander_points;
+SELECT count(*) FROM abacus_levels('detail', '{1,8}', 'height');
+DROP TABLE detail_levels;
+SELECT name, value FROM abacus_stats('detail') WHERE name LIKE 'levels%';
+SELECT abacus_levels('detail', '{1,8}', 'height');
+SELECT abacus_levels_refresh('detail');
+SELECT abacus_levels_drop('detail');
+SELECT count(*) FROM pg_class WHERE relname LIKE 'detail_level%';
+SELECT abacus_levels_drop('detail');
+-- temporary tables of the session with the names of those of a refresh
+SELECT count(*) FROM abacus_levels('detail', '{1,8}', 'height');
+CREATE TEMPORARY TABLE abacus_fresh_0_level_1 ();
+CREATE TEMPORARY TABLE abacus_fresh_1_level_2_vertices ();
+SELECT count(*) FROM abacus_levels_refresh('detail');
+DROP TABLE abacus_fresh_0_level_1, abacus_fresh_1_level_2_vertices;
+-- what a transaction refuses is named by the function that was called
+BEGIN READ ONLY;
+SELECT abacus_levels('detail', '{1}', 'height');
+ROLLBACK;
+BEGIN READ ONLY;
+SELECT abacus_levels_refresh('detail');
+ROLLBACK;
+BEGIN READ ONLY;
+SELECT abacus_levels_drop('detail');
+ROLLBACK;
+BEGIN;
+SELECT count(*) FROM abacus_levels_refresh('detail');
+PREPARE TRANSACTION 'refreshed';
+-- a role that may not read what is needed
+CREATE ROLE regress_abacus_level;
+GRANT SELECT ON detail, detail_vertices TO regress_abacus_level;
+SET ROLE regress_abacus_level;
+SELECT abacus_level('detail', 8);
+SELECT name FROM abacus_stats('detail') WHERE name LIKE 'levels%';
+RESET ROLE;
+GRANT SELECT ON detail_levels TO regress_abacus_level;
+SET ROLE regress_abacus_level;
+SELECT abacus_contours('detail', attribute => 'height', max_error => 8);
+RESET ROLE;
+REVOKE ALL ON detail, detail_vertices, detail_levels FROM regress_abacus_level;
+DROP ROLE regress_abacus_level;
+SELECT abacus_levels_drop('detail');
 -- in space, and dropped with the mesh
 SELECT abacus_triangulate('detail_solid', $$
     SELECT i, (i * 0.8191725133961645) % 1, (i * 0.6710436067037893) % 1, (i * 0.5497004779019703) % 1,

@@ -86,22 +86,93 @@ levels_read(Oid table, MeshAccess access, Level **levels)
 	return count;
 }
 
+/* Whether the user may read the table of a mesh's levels, if there is one. */
+bool
+levels_may_read(Oid mesh)
+{
+	Oid			table = mesh_find_rows_table(mesh, MESH_LEVELS);
+
+	return !OidIsValid(table) || (pg_class_aclcheck(table, GetUserId(), ACL_SELECT) == ACLCHECK_OK &&
+								  check_enable_rls(table, GetUserId(), true) != RLS_ENABLED);
+}
+
 /* The same for a mesh; 0 if it has none, or if the user may not read them. */
 int
 levels_read_if_allowed(Oid mesh, Level **levels)
 {
-	Oid			table = mesh_find_rows_table(mesh, MESH_LEVELS);
+	Oid			table;
 	Relation	rel;
 	int			count;
 
-	if (!OidIsValid(table) || pg_class_aclcheck(table, GetUserId(), ACL_SELECT) != ACLCHECK_OK ||
-		check_enable_rls(table, GetUserId(), true) == RLS_ENABLED)
+	if (!levels_may_read(mesh))
 		return 0;
 	rel = mesh_table_open(mesh, MESH_READ);
 	table = mesh_rows_table(rel, MESH_LEVELS, MESH_READ);
 	count = OidIsValid(table) ? levels_read(table, MESH_READ, levels) : 0;
 	table_close(rel, NoLock);
 	return count;
+}
+
+/*
+ * The levels that are bound to a mesh, in the current memory context, in the order of their numbers in the catalogues;
+ * returns how many. A mesh that is bound to another one is a level of it, whatever its table of levels says.
+ */
+int
+levels_bound(Oid mesh, MeshAccess access, Oid **levels)
+{
+	MemoryContext caller = CurrentMemoryContext;
+	int			count = 0;
+
+	SPI_connect();
+	if (SPI_execute(psprintf("SELECT objid FROM pg_catalog.pg_depend WHERE classid = %u AND refclassid = %u AND refobjid = %u "
+							 "AND deptype = 'a' AND objsubid = 0 ORDER BY objid",
+							 RelationRelationId, RelationRelationId, mesh), access == MESH_READ, 0) != SPI_OK_SELECT)
+		elog(ERROR, "could not read the dependencies of a mesh: %s", SPI_result_code_string(SPI_result));
+	*levels = MemoryContextAlloc(caller, (SPI_processed + 1) * sizeof(Oid));
+	for (uint64 row = 0; row < SPI_processed; row++)
+	{
+		Oid			relid = DatumGetObjectId(value_at(row, 1));
+
+		if (mesh_of_table(relid) == relid)
+			(*levels)[count++] = relid;
+	}
+	SPI_finish();
+	return count;
+}
+
+static bool
+names_level(const Level *levels, int count, Oid mesh)
+{
+	for (int i = 0; i < count; i++)
+		if (levels[i].mesh == mesh)
+			return true;
+	return false;
+}
+
+/* How many levels of a mesh are not named by its table of levels, whose rows are given; the first one is in *level. */
+int
+levels_count_unnamed(Oid mesh, MeshAccess access, const Level *levels, int count, Oid *level)
+{
+	Oid		   *bound;
+	int			bound_count = levels_bound(mesh, access, &bound);
+	int			unnamed = 0;
+
+	for (int i = 0; i < bound_count; i++)
+		if (!names_level(levels, count, bound[i]) && unnamed++ == 0)
+			*level = bound[i];
+	return unnamed;
+}
+
+/* How many levels of a mesh were dropped, or are not named by its table of levels. */
+int
+levels_count_lost(Oid mesh, const Level *levels, int count)
+{
+	int			lost = levels_count_unnamed(mesh, MESH_READ, levels, count, &(Oid) {InvalidOid});
+
+	for (int i = 0; i < count; i++)
+		if (mesh_of_table(levels[i].mesh) != levels[i].mesh)
+			lost++;
+	return lost;
 }
 
 /* A hash that changes when a level is made or made anew. */
@@ -158,6 +229,19 @@ check_max_error(double max_error)
 				 errhint("Give the greatest error of the level to read, in units of the attribute.")));
 }
 
+/* For the table of levels, or for one of them; InvalidOid needs no right. */
+static void
+require_select(Oid table, Oid mesh)
+{
+	if (OidIsValid(table) && pg_class_aclcheck(table, GetUserId(), ACL_SELECT) != ACLCHECK_OK)
+		ereport(ERROR,
+				(errcode(ERRCODE_INSUFFICIENT_PRIVILEGE),
+				 errmsg("permission denied for table %s", get_rel_name(table)),
+				 errdetail("Levels of mesh \"%s\" are needed where an error is allowed.", get_rel_name(mesh)),
+				 errhint("Its owner can grant SELECT on the levels and on their table. Without max_error and pixel_error the "
+						 "full mesh is read.")));
+}
+
 /*
  * The mesh to read where an error is allowed: the coarsest level whose error is not greater, or else the full
  * mesh. Errors of levels are those of one attribute; NULL stands for any.
@@ -166,13 +250,16 @@ Oid
 levels_choose(Oid mesh, double max_error, const char *attribute)
 {
 	Relation	rel = mesh_table_open(mesh, MESH_READ);
-	Oid			table = mesh_rows_table(rel, MESH_LEVELS, MESH_READ);
+	Oid			table = mesh_find_rows_table(mesh, MESH_LEVELS);
 	const Level *chosen = NULL;
 	Level	   *levels;
-	int			count = OidIsValid(table) ? levels_read(table, MESH_READ, &levels) : 0;
+	int			count;
 
-	table_close(rel, NoLock);
 	check_max_error(max_error);
+	require_select(table, mesh);
+	table = mesh_rows_table(rel, MESH_LEVELS, MESH_READ);
+	count = OidIsValid(table) ? levels_read(table, MESH_READ, &levels) : 0;
+	table_close(rel, NoLock);
 	if (count == 0)
 		ereport(ERROR,
 				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
@@ -194,5 +281,6 @@ levels_choose(Oid mesh, double max_error, const char *attribute)
 				(errcode(ERRCODE_UNDEFINED_TABLE),
 				 errmsg("level %d of mesh \"%s\" no longer exists", chosen->number, get_rel_name(mesh)),
 				 errhint("Drop the other levels with abacus_levels_drop(), and make them anew with abacus_levels().")));
+	require_select(chosen->mesh, mesh);
 	return chosen->mesh;
 }

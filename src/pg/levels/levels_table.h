@@ -19,7 +19,11 @@ typedef struct Level
 
 extern Oid	levels_table_make(Relation mesh);
 extern int	levels_read(Oid table, MeshAccess access, Level **levels);
+extern bool levels_may_read(Oid mesh);
 extern int	levels_read_if_allowed(Oid mesh, Level **levels);
+extern int	levels_bound(Oid mesh, MeshAccess access, Oid **levels);
+extern int	levels_count_unnamed(Oid mesh, MeshAccess access, const Level *levels, int count, Oid *level);
+extern int	levels_count_lost(Oid mesh, const Level *levels, int count);
 extern uint32 levels_hash(const Level *levels, int count);
 extern int	levels_count_old(const Level *levels, int count, uint64 stamp);
 extern void levels_bind(Relation mesh);

@@ -199,12 +199,18 @@ put_levels(Figures *figures, Oid mesh, uint64 stamp)
 {
 	Level	   *levels;
 	int			count = levels_read_if_allowed(mesh, &levels);
+	int			lost;
 
-	if (count == 0)
+	if (!levels_may_read(mesh))
+		return;
+	lost = levels_count_lost(mesh, levels, count);
+	if (count + lost == 0)
 		return;
 	put_figure(figures, "levels", count, "coarser meshes beside it, see abacus_levels()");
 	put_figure(figures, "levels_old", levels_count_old(levels, count, stamp),
 			   "levels made before the last change of the mesh: abacus_levels_refresh() makes them anew");
+	put_figure(figures, "levels_lost", lost,
+			   "levels that were dropped, or that the table of levels does not name: abacus_levels_drop() and abacus_levels() make all anew");
 }
 
 /*

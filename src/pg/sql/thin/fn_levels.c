@@ -20,7 +20,6 @@
 #include "funcapi.h"
 #include "lib/stringinfo.h"
 #include "miscadmin.h"
-#include "storage/lmgr.h"
 #include "utils/acl.h"
 #include "utils/array.h"
 #include "utils/builtins.h"
@@ -28,6 +27,7 @@
 #include "utils/snapmgr.h"
 
 #include "pg/base/sql_function.h"
+#include "pg/levels/levels_lock.h"
 #include "pg/levels/levels_table.h"
 #include "pg/lines/named_rows.h"
 #include "pg/mesh/lines_table.h"
@@ -65,6 +65,7 @@ typedef struct Levels
 {
 	Oid			mesh;
 	char	   *extension;		/* schema */
+	char	   *fresh;			/* begins the names of temporary meshes */
 	Oid			user;
 	int			security;
 	int			settings;
@@ -72,12 +73,15 @@ typedef struct Levels
 
 /* ---- Running as the owner ----------------------------------------------------------------- */
 
-/* The mesh and all beside it have one owner, also if a superuser calls. */
+/* The mesh and all beside it have one owner, also if a superuser calls. `command` names the function for messages. */
 static void
-begin_as_owner(Levels *levels, FunctionCallInfo fcinfo, Oid mesh)
+begin_as_owner(Levels *levels, FunctionCallInfo fcinfo, Oid mesh, const char *command)
 {
-	Relation	rel = mesh_table_open(mesh, MESH_READ);
+	Relation	rel;
 
+	PreventCommandIfReadOnly(command);
+	PreventCommandIfParallelMode(command);
+	rel = mesh_table_open(mesh, MESH_READ);
 	if (!object_ownercheck(RelationRelationId, mesh, GetUserId()))
 		ereport(ERROR,
 				(errcode(ERRCODE_INSUFFICIENT_PRIVILEGE),
@@ -267,11 +271,11 @@ abacus_sql_levels(PG_FUNCTION_ARGS)
 				 errhint("errors are the greatest errors of the levels, the finest level first.")));
 	errors = errors_argument(PG_GETARG_ARRAYTYPE_P(OF_ERRORS), &count);
 	attribute = attribute_name(fcinfo, PG_GETARG_OID(OF_MESH));
-	begin_as_owner(&called, fcinfo, PG_GETARG_OID(OF_MESH));
+	begin_as_owner(&called, fcinfo, PG_GETARG_OID(OF_MESH), "abacus_levels()");
 	mesh = mesh_table_open(called.mesh, MESH_READ);
 	name = pstrdup(RelationGetRelationName(mesh));
 	schema = get_namespace_name(RelationGetNamespace(mesh));
-	if (OidIsValid(mesh_rows_table(mesh, MESH_LEVELS, MESH_READ)))
+	if (OidIsValid(mesh_rows_table(mesh, MESH_LEVELS, MESH_READ)) || levels_bound(called.mesh, MESH_READ, &(Oid *) {NULL}) > 0)
 		ereport(ERROR,
 				(errcode(ERRCODE_DUPLICATE_TABLE),
 				 errmsg("mesh \"%s\" already has levels", name),
@@ -288,43 +292,19 @@ abacus_sql_levels(PG_FUNCTION_ARGS)
 
 /* ---- abacus_levels_refresh ---------------------------------------------------------------- */
 
-#define FRESH_NAME "abacus_fresh_level_"
-
-/* The levels of a mesh that must have some, kept from others who make them anew. */
-static Oid
-lock_levels(const Levels *called, Level **levels, int *count)
+/* How names of temporary meshes begin that no relation or type of the session has. */
+static char *
+free_name(void)
 {
-	Oid			table = mesh_find_rows_table(called->mesh, MESH_LEVELS);
-	Relation	mesh;
-
-	/* at once in the strongest mode, so that two sessions do not wait for each other */
-	if (OidIsValid(table))
-		LockRelationOid(table, ShareRowExclusiveLock);
-	mesh = mesh_table_open(called->mesh, MESH_READ);
-	table = mesh_rows_table(mesh, MESH_LEVELS, MESH_WRITE);
-	table_close(mesh, NoLock);
-	if (!OidIsValid(table))
-		ereport(ERROR,
-				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
-				 errmsg("mesh \"%s\" has no levels", get_rel_name(called->mesh)),
-				 errhint("Make them with abacus_levels().")));
-	*count = levels_read(table, MESH_WRITE, levels);
-	return table;
-}
-
-/* Keeps all levels, which must be there, from being changed by hand: a DELETE would not see new rows. */
-static void
-lock_each_level(const Levels *called, const Level *levels, int count)
-{
-	for (int i = 0; i < count; i++)
+	for (int n = 0;; n++)
 	{
-		LockRelationOid(levels[i].mesh, ShareRowExclusiveLock);
-		if (mesh_of_table(levels[i].mesh) != levels[i].mesh)
-			ereport(ERROR,
-					(errcode(ERRCODE_UNDEFINED_TABLE),
-					 errmsg("level %d of mesh \"%s\" no longer exists", levels[i].number, get_rel_name(called->mesh)),
-					 errhint("Drop the other levels with abacus_levels_drop(), and make them anew with "
-							 "abacus_levels().")));
+		char	   *prefix = psprintf("abacus_fresh_%d_level_", n);
+
+		if (SPI_execute(psprintf("SELECT FROM pg_catalog.pg_type WHERE typnamespace = pg_catalog.pg_my_temp_schema() "
+								 "AND pg_catalog.strpos(typname::text, '%s') > 0", prefix), false, 1) != SPI_OK_SELECT)
+			elog(ERROR, "could not look for temporary tables");
+		if (SPI_processed == 0)
+			return prefix;
 	}
 }
 
@@ -357,9 +337,9 @@ replace_lines(Relation level, Relation fresh)
 
 /* Replaces all rows of a level, and its row in the table of levels; drops the fresh mesh. */
 static void
-replace_level(Oid table, const Level *level)
+replace_level(const Levels *called, Oid table, const Level *level)
 {
-	Oid			fresh = new_table_id(LookupNamespaceNoError("pg_temp"), psprintf(FRESH_NAME "%d", level->number));
+	Oid			fresh = new_table_id(LookupNamespaceNoError("pg_temp"), psprintf("%s%d", called->fresh, level->number));
 	Relation	by = mesh_table_open(fresh, MESH_READ);
 	Relation	of = mesh_table_open(level->mesh, MESH_WRITE);
 	Oid			thinning = mesh_rows_table(of, MESH_THINNING, MESH_WRITE);
@@ -381,18 +361,23 @@ Datum
 abacus_sql_levels_refresh(PG_FUNCTION_ARGS)
 {
 	Levels		called;
-	Level	   *levels;
-	int			count;
+	Level	   *levels = NULL;
+	Oid		   *bound;
+	int			bound_count;
+	int			count = 0;
 	Oid			table;
 
 	InitMaterializedSRF(fcinfo, 0);
-	begin_as_owner(&called, fcinfo, PG_GETARG_OID(OF_MESH));
-	table = lock_levels(&called, &levels, &count);
-	lock_each_level(&called, levels, count);
-	run(psprintf("SELECT %s.abacus_thin('%u', 'pg_temp." FRESH_NAME "' || level, max_error, attribute) FROM %s",
-				 called.extension, called.mesh, lines_table_name(table)), SPI_OK_SELECT);
+	begin_as_owner(&called, fcinfo, PG_GETARG_OID(OF_MESH), "abacus_levels_refresh()");
+	table = levels_lock(called.mesh, &bound, &bound_count);
+	if (OidIsValid(table))
+		count = levels_read(table, MESH_WRITE, &levels);
+	levels_lock_each(called.mesh, levels, count, bound, bound_count);
+	called.fresh = free_name();
+	run(psprintf("SELECT %s.abacus_thin('%u', 'pg_temp.%s' || level, max_error, attribute) FROM %s",
+				 called.extension, called.mesh, called.fresh, lines_table_name(table)), SPI_OK_SELECT);
 	for (int i = 0; i < count; i++)
-		replace_level(table, &levels[i]);
+		replace_level(&called, table, &levels[i]);
 	put_levels(fcinfo, &called);
 	end_as_owner(&called);
 	PG_RETURN_NULL();
@@ -400,28 +385,29 @@ abacus_sql_levels_refresh(PG_FUNCTION_ARGS)
 
 /* ---- abacus_levels_drop, abacus_level ------------------------------------------------------- */
 
-/* abacus_levels_drop(mesh regclass) -> integer: levels that were dropped */
+/*
+ * abacus_levels_drop(mesh regclass) -> integer: levels that were dropped. These are the meshes that are bound
+ * to the mesh, whatever their table says of them.
+ */
 Datum
 abacus_sql_levels_drop(PG_FUNCTION_ARGS)
 {
 	Levels		called;
-	Level	   *levels;
+	Oid		   *bound;
 	int			count;
-	int			dropped = 0;
+	Oid			table;
 	StringInfoData command;
 
-	begin_as_owner(&called, fcinfo, PG_GETARG_OID(OF_MESH));
+	begin_as_owner(&called, fcinfo, PG_GETARG_OID(OF_MESH), "abacus_levels_drop()");
+	table = levels_lock(called.mesh, &bound, &count);
 	initStringInfo(&command);
-	appendStringInfo(&command, "DROP TABLE %s", lines_table_name(lock_levels(&called, &levels, &count)));
 	for (int i = 0; i < count; i++)
-		if (mesh_of_table(levels[i].mesh) == levels[i].mesh)
-		{
-			appendStringInfo(&command, ", %s", lines_table_name(levels[i].mesh));
-			dropped++;
-		}
-	run(command.data, SPI_OK_UTILITY);
+		appendStringInfo(&command, "%s%s", i > 0 ? ", " : "", lines_table_name(bound[i]));
+	if (OidIsValid(table))
+		appendStringInfo(&command, "%s%s", count > 0 ? ", " : "", lines_table_name(table));
+	run(psprintf("DROP TABLE %s", command.data), SPI_OK_UTILITY);
 	end_as_owner(&called);
-	PG_RETURN_INT32(dropped);
+	PG_RETURN_INT32(count);
 }
 
 /* abacus_level(mesh regclass, max_error float8) -> regclass */
