@@ -54,6 +54,12 @@ SELECT abacus_tiles('sheet', world => '{0}');
 -- Errors
 SELECT abacus_tile_vector('hills', -1, 0, 0);
 SELECT abacus_tile_picture('hills', 31, 0, 0);
+-- heights that the encoding does not hold are said
+SELECT abacus_triangulate('heights', 'VALUES (1, 0.0, 0.0, -40000.0), (2, 8, 0, 40000), (3, 0, 8, 0), (4, 8, 8, 0)', attributes => '{h}');
+SELECT length(abacus_tile_terrain('heights', 0, 0, 0, world => '{0,0,8}', size => 8)) > 0 AS clamped;
+SELECT length(abacus_tile_terrain('heights', 1, 1, 0, world => '{0,0,32}', size => 1, fill => 1e6)) > 0 AS clamped;
+SELECT length(abacus_tile_terrain('heights', 1, 0, 0, world => '{0,0,8}', size => 8)) > 0 AS fits;
+DROP TABLE heights;
 SELECT abacus_tile_terrain('hills', 3, 8, 0);
 SELECT abacus_tile_vector('hills', 3, 0, -1);
 SELECT abacus_tile_vector('hills', 3, 0, 0, srid => 0);

@@ -47,7 +47,8 @@ typedef enum abacus_error_kind
 	ABACUS_ERROR_LIMIT,     /* a limit of the format is exceeded */
 	ABACUS_ERROR_DUPLICATE, /* a point equals one that is there */
 	ABACUS_ERROR_UNSUPPORTED, /* what the core does not do yet */
-	ABACUS_ERROR_CROSSING   /* lines cross */
+	ABACUS_ERROR_CROSSING,  /* lines cross */
+	ABACUS_ERROR_RANGE      /* a number is beyond what a format holds */
 } abacus_error_kind;
 
 /* Zero-terminated texts in PostgreSQL's style; detail and hint may be empty. */

@@ -47,12 +47,16 @@ typedef struct abacus_tile_terrain_kind
 	double fill;        /* height where there is no mesh */
 } abacus_tile_terrain_kind;
 
-/* Heights as colours of a PNG: 256 red + green + blue / 256 - 32768 ("terrarium"). */
+/*
+ * Heights as colours of a PNG: 256 red + green + blue / 256 - 32768 ("terrarium"). *beyond is set to
+ * how many heights that does not hold; they are the least or the greatest that it does.
+ */
 ABACUS_API abacus_status abacus_tile_terrain(const abacus_host *host, const abacus_facts *facts,
 											 const abacus_tile *tile,
 											 const abacus_tile_terrain_kind *kind,
 											 const abacus_tile_memory *memory,
-											 abacus_picture *picture, abacus_error *error);
+											 abacus_picture *picture, uint64_t *beyond,
+											 abacus_error *error);
 
 /* What the coordinates of a mesh are. */
 typedef enum abacus_tile_plane

@@ -39,12 +39,12 @@ abacus_status abacus_tile_picture(const abacus_host *host, const abacus_facts *f
 abacus_status abacus_tile_terrain(const abacus_host *host, const abacus_facts *facts,
                                   const abacus_tile *tile, const abacus_tile_terrain_kind *kind,
                                   const abacus_tile_memory *memory, abacus_picture *picture,
-                                  abacus_error *error) {
+                                  uint64_t *beyond, abacus_error *error) {
     return abacus::guard(error, [&] {
         require_plane(*facts);
         const abacus::Host wrapped(*host);
-        return hand_over(abacus::terrain_tile(wrapped, *facts, *tile, *kind, *memory), false,
-                         picture);
+        return hand_over(abacus::terrain_tile(wrapped, *facts, *tile, *kind, *memory, *beyond),
+                         false, picture);
     });
 }
 

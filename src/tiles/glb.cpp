@@ -96,7 +96,10 @@ Png GlbWriter::make(const Arena<SurfaceCorner> &corners) {
     for (const SurfaceCorner &corner : corners) {
         const Point<3> p = turned(difference(frame_.place(corner.at, corner.height), centre));
         PlaceInFile place;
-        for (int i = 0; i < 3; ++i) place[i] = static_cast<float>(p[i]);
+        for (int i = 0; i < 3; ++i) {
+            if (!fits_float(p[i])) throw_beyond_floats(corner);
+            place[i] = static_cast<float>(p[i]);
+        }
         places.push_back(place);
     }
     const WeldedSurface surface = weld(host_, corners, places);

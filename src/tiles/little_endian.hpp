@@ -4,10 +4,17 @@
 #include "draw/picture.hpp"
 
 #include <bit>
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <string_view>
 
 namespace abacus {
+
+/// Whether there is a float near a number.
+inline bool fits_float(double number) {
+    return std::fabs(number) <= std::numeric_limits<float>::max(); // not if it is NaN
+}
 
 class LittleEndian {
 public:

@@ -92,7 +92,10 @@ Point<3> Quantizing::place_of(const PlaceInFile &vertex) const {
 
 Png Quantizing::make(const Arena<SurfaceCorner> &corners) {
     if (corners.empty()) return bytes_.take();
-    for (const SurfaceCorner &corner : corners) heights_.extend(corner.height);
+    for (const SurfaceCorner &corner : corners) {
+        if (!fits_float(corner.height)) throw_beyond_floats(corner);
+        heights_.extend(corner.height);
+    }
     Arena<PlaceInFile> places(host_);
     for (const SurfaceCorner &corner : corners) places.push_back(quantized(corner));
     WeldedSurface surface = weld(host_, corners, places);

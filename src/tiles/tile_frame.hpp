@@ -29,6 +29,21 @@ inline Point<3> direction_of(const Point<3> &v) {
     return {v[0] / length, v[1] / length, v[2] / length};
 }
 
+/// Perpendicular to the ways from a to b and from c to d, as long as their parallelogram is large.
+/// Finite, even where products of doubles are not.
+inline Point<3> normal_of(const Point<3> &a, const Point<3> &b, const Point<3> &c,
+                          const Point<3> &d) {
+    const auto is_finite = [](const Point<3> &v) {
+        return std::isfinite(v[0]) && std::isfinite(v[1]) && std::isfinite(v[2]);
+    };
+    const Point<3> normal = cross(difference(b, a), difference(d, c));
+    if (is_finite(normal)) return normal;
+    const auto small = [](const Point<3> &p) {
+        return Point<3>{std::ldexp(p[0], -600), std::ldexp(p[1], -600), std::ldexp(p[2], -600)};
+    };
+    return cross(difference(small(b), small(a)), difference(small(d), small(c)));
+}
+
 class TileFrame {
 public:
     explicit TileFrame(abacus_tile_plane plane) : plane_(plane) {}

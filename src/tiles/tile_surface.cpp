@@ -1,5 +1,6 @@
 #include "tiles/tile_surface.hpp"
 
+#include "geometry/in_words.hpp"
 #include "points/record.hpp"
 #include "query/locate/hull_box.hpp"
 #include "query/pages/page_simplex.hpp"
@@ -135,8 +136,7 @@ template <class Visit> bool SurfaceMaker::each_triangle(const Box<2> &box, Visit
                 const Point<3> &p = triangle.corners[i];
                 places[i] = frame_.place({p[0], p[1]}, p[2]);
             }
-            triangle.normal =
-                cross(difference(places[1], places[0]), difference(places[2], places[0]));
+            triangle.normal = normal_of(places[0], places[1], places[0], places[2]);
             if (!visit(triangle)) return false;
         }
     }
@@ -274,13 +274,13 @@ SurfaceCorner SurfaceMaker::sampled(int x, int y) const {
         return frame_.place({place_of(0, column), place_of(1, row)},
                             std::isfinite(known) ? known : height(x, y));
     };
-    const Point<3> along = difference(place(x + 1, y), place(x - 1, y));
-    const Point<3> up = difference(place(x, y + 1), place(x, y - 1));
+    const Point<3> normal =
+        normal_of(place(x - 1, y), place(x + 1, y), place(x, y - 1), place(x, y + 1));
     const Point<2> at{place_of(0, x), place_of(1, y)};
     const int borders =
         (at[0] == box_.lower[0] ? west_border : 0) | (at[0] == box_.upper[0] ? east_border : 0) |
         (at[1] == box_.lower[1] ? south_border : 0) | (at[1] == box_.upper[1] ? north_border : 0);
-    return {at, height(x, y), cross(along, up), static_cast<std::uint8_t>(borders)};
+    return {at, height(x, y), normal, static_cast<std::uint8_t>(borders)};
 }
 
 /// What the mesh has on a border, in order.
@@ -371,6 +371,14 @@ void SurfaceMaker::join(std::size_t n) {
 }
 
 } // namespace
+
+void throw_beyond_floats(const SurfaceCorner &corner) {
+    throw Error(ABACUS_ERROR_RANGE, "a place of the tile is beyond the range of 32-bit floats",
+                "It is " + in_words(Point<3>{corner.at[0], corner.at[1], corner.height}) +
+                    ", with its height; floats end at 3.4e+38.",
+                "Give an attribute with heights in metres. A triangle with a corner whose value is "
+                "NULL is left out.");
+}
 
 Arena<SurfaceCorner> tile_surface(const Host &host, const abacus_facts &facts, const Box<2> &box,
                                   const TileFrame &frame, std::uint32_t attribute,

@@ -27,6 +27,9 @@ struct SurfaceCorner {
     std::uint8_t borders;
 };
 
+/// Formats of terrain have 32-bit floats.
+[[noreturn]] void throw_beyond_floats(const SurfaceCorner &corner);
+
 /// Three corners a triangle, counterclockwise as seen from above, in no particular order.
 Arena<SurfaceCorner> tile_surface(const Host &host, const abacus_facts &facts, const Box<2> &box,
                                   const TileFrame &frame, std::uint32_t attribute,

@@ -50,6 +50,22 @@ SELECT is(pg_temp.vertices(abacus_tile_mesh('fault', 2, 4, 2, srid => 4326)), 6,
 SELECT abacus_triangulate('vast', 'VALUES (1, -1.7e308, -1.7e308, 0.0), (2, 1.7e308, -1.7e308, 10), (3, -1.7e308, 1.7e308, 20)', attributes => '{h}');
 SELECT isnt(abacus_tile_mesh('vast', 0, 0, 0, world => '{-8,-8,16}', format => 'glb'), NULL, 'a tile within a triangle that spans all doubles');
 
+-- heights and places that floats do not hold
+SELECT abacus_triangulate('high', 'SELECT i, i % 3 * 10.0, i / 3 * 10.0, CASE i WHEN 4 THEN 1e39 ELSE 5 END FROM generate_series(0, 8) AS i', attributes => '{h}');
+SELECT throws_ok(format('SELECT abacus_tile_mesh(%L, 4, 16, 8, srid => 4326, format => %L)', 'high', f), '22003', 'a place of the tile is beyond the range of 32-bit floats', 'a height beyond floats, as ' || f)
+FROM (VALUES ('quantized-mesh'), ('glb')) AS f (f);
+SELECT abacus_update('high', 'SELECT 4 AS id, 10.0 AS x, 10.0 AS y, 3e38::float8 AS h');
+SELECT isnt(abacus_tile_mesh('high', 4, 16, 8, srid => 4326), NULL, 'the greatest heights that floats hold');
+SELECT isnt(abacus_tile_mesh('high', 4, 16, 8, srid => 4326, format => 'glb'), NULL, '... as glTF');
+SELECT abacus_update('high', 'SELECT 4 AS id, 10.0 AS x, 10.0 AS y, 1e200::float8 AS h');
+SELECT throws_ok($$SELECT abacus_tile_mesh('high', 0, 1, 0, srid => 4326)$$, '22003', NULL, 'a height far beyond floats');
+SELECT is(abacus_tile_mesh('high', 4, 0, 0, srid => 4326), NULL, 'elsewhere there is no tile');
+SELECT abacus_triangulate('far', 'VALUES (1, 0.0, 0.0, 1.0), (2, 1e39, 0, 1), (3, 0, 1e39, 1)', attributes => '{h}');
+SELECT throws_ok($$SELECT abacus_tile_mesh('far', 0, 0, 0, world => '{0,0,1e39}', format => 'glb')$$, '22003', NULL, 'coordinates beyond floats');
+SELECT isnt(abacus_tile_mesh('far', 0, 0, 0, world => '{0,0,1e37}', format => 'glb'), NULL, 'a part of the same mesh');
+SELECT abacus_triangulate('steep', 'VALUES (1, 0.0, 0.0, 0.0), (2, 1, 0, 1e300), (3, 0, 1, -1e300), (4, -1, 0, 0), (5, 0, -1, 0)', attributes => '{h}');
+SELECT isnt(abacus_tile_mesh('steep', 1, 0, 0, world => '{-2,-2,4}', format => 'glb'), NULL, 'beside triangles whose normals have no length in doubles');
+
 -- a level of detail
 SELECT abacus_triangulate('rough', 'SELECT 100 * i + j, 7 + i / 40.0, 46 + j / 40.0, 500 + (i * 7919 + j * 104729) % 13 FROM generate_series(0, 40) AS i, generate_series(0, 40) AS j', attributes => '{h}');
 SELECT abacus_set_srid('rough', 4326);

@@ -459,8 +459,10 @@ TEST(TerrainTile, HasTheHeightsOfItsPixels) {
         Reader<2> reader(host, mesh->header, ample);
         const std::uint32_t attribute = 0;
         CornerValues values(&attribute, 1);
+        std::uint64_t beyond;
         const Image image =
-            decode(terrain_tile(host, mesh->header, tile, {64, 0, {}, -50}, plenty));
+            decode(terrain_tile(host, mesh->header, tile, {64, 0, {}, -50}, plenty, beyond));
+        EXPECT_EQ(beyond, 0u);
         ASSERT_EQ(image.width, 64);
         ASSERT_EQ(image.height, 64);
         int inside = 0;
@@ -634,7 +636,8 @@ TEST(Tile, MemoryIsGivenBack) {
         read_vector(*mesh, tile_at(zoom, 7.5, 46.5), {0, 10, {}});
         const Host host = mesh->host.host();
         draw_picture_tile(host, mesh->header, tile_at(zoom, 7.5, 46.5), coloured(64), plenty);
-        terrain_tile(host, mesh->header, tile_at(zoom, 7.5, 46.5), {64, 0, {}, 0}, plenty);
+        std::uint64_t beyond;
+        terrain_tile(host, mesh->header, tile_at(zoom, 7.5, 46.5), {64, 0, {}, 0}, plenty, beyond);
     }
     EXPECT_EQ(mesh->host.bytes, before);
 }

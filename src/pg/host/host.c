@@ -97,6 +97,8 @@ sqlstate_of(abacus_error_kind kind)
 			return ERRCODE_UNIQUE_VIOLATION;
 		case ABACUS_ERROR_UNSUPPORTED:
 			return ERRCODE_FEATURE_NOT_SUPPORTED;
+		case ABACUS_ERROR_RANGE:
+			return ERRCODE_NUMERIC_VALUE_OUT_OF_RANGE;
 		case ABACUS_ERROR_INTERNAL:
 			break;
 	}

@@ -302,6 +302,7 @@ abacus_sql_tile_terrain(PG_FUNCTION_ARGS)
 	abacus_tile_memory memory;
 	abacus_tile_terrain_kind kind = {0};
 	abacus_picture picture = {0};
+	uint64		beyond;
 	Reader	   *reader = tile_begin(fcinfo, &terrain_level, TERRAIN_SIZE, &tile, &memory);
 	Host	   *host;
 
@@ -320,7 +321,14 @@ abacus_sql_tile_terrain(PG_FUNCTION_ARGS)
 				 errmsg("fill must be a finite number"),
 				 errhint("Give the height where there is no mesh.")));
 	host_run(host, abacus_tile_terrain, &host->table, &reader->header.facts, &tile, &kind, &memory,
-			 &picture);
+			 &picture, &beyond);
+	if (beyond > 0)
+		ereport(NOTICE,
+				(errmsg_plural(UINT64_FORMAT " height of the tile is beyond the range of its encoding",
+							   UINT64_FORMAT " heights of the tile are beyond the range of its encoding",
+							   (unsigned long) beyond, beyond),
+				 errdetail("Heights below -32768 are -32768, and those above 32767.996 are 32767.996."),
+				 errhint("Give an attribute whose unit is larger, for instance metres.")));
 	PG_RETURN_BYTEA_P(drawing_finish(host, &picture));
 }
 
