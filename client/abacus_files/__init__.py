@@ -5,6 +5,7 @@ session.py     psql as a stream of rows, in one snapshot
 progress.py    a line on the terminal
 arrays.py      a mesh as chunks of arrays; octree.py: an octree likewise; series.py: a mesh at the steps of a series
 mesh_lines.py  its lines, their markers and its regions; seeds.py: places inside of regions
+surfaces.py    surfaces of a mesh in memory; normals.py: their normals
 held.py        what a format cannot hold; english.py: numbers of things in messages
 formats.py     which writer a file's name asks for
 write_*.py     one format each

@@ -41,6 +41,18 @@ class Recipes(unittest.TestCase):
         done = subprocess.run(["psql", "-X", "-q"], input=sql, text=True, env=cls.environment, cwd=cls.at, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, check=True)
         return done.stdout
 
+    def test_surfaces_for_geologists(self):
+        page = (abacus.REPOSITORY / "docs/cookbook/surfaces-for-geologists.md").read_text()
+        for language, block, _ in BLOCK.findall(page):
+            if language == "sql" and "CREATE EXTENSION" in block:  # the other examples of documents compare its output
+                self.psql(block.replace("CREATE EXTENSION abacus;", ""))
+            elif language == "sh":
+                commands = block.replace("client/", f"{abacus.REPOSITORY}/client/").replace("-d survey", f"-d {DATABASE}")
+                done = subprocess.run(["bash", "-e", "-c", commands], text=True, env=self.environment, cwd=self.at, capture_output=True)
+                self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(sorted(path.name for path in self.at.glob("*.glb")), ["lower.glb", "shell.glb", "shells.glb", "units.glb"])
+        self.assertIn("'origin': [512", done.stdout)
+
     def test_lines_of_cad(self):
         page = (abacus.REPOSITORY / "docs/cookbook/lines-of-cad.md").read_text()
         for language, block, wanted in BLOCK.findall(page):
