@@ -1,4 +1,5 @@
 // Terrain for globes in three dimensions: which tiles a mesh has, for Cesium's layer.json, and each of them.
+import { errorOfTerrain } from "./detail.js";
 import { Refused } from "./errors.js";
 import { plane } from "./queries.js";
 
@@ -32,4 +33,7 @@ export const nothing = (() => {
 })();
 
 /** A tile: its statement and parameters. */
-export const terrain = (place, p, mesh) => ({ text: plane.mesh, values: [...place, attributeOf(p, mesh), mesh.srid] });
+export function terrain(place, p, mesh) {
+    const attribute = attributeOf(p, mesh);
+    return { text: plane.mesh, values: [...place, attribute, mesh.srid, errorOfTerrain(mesh, attribute, place[0])] };
+}

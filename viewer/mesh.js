@@ -1,5 +1,6 @@
 // A mesh or an octree as the viewer knows it: what it is, where it lies on the map, and the meshes of the database that may
 // be shown.
+import { levelsOf } from "./detail.js";
 import { explain, Refused } from "./errors.js";
 import { catalogue, kinds } from "./queries.js";
 
@@ -40,8 +41,9 @@ export class Mesh {
         const [{ name, stats, attributes, labels, extent, srid: own }] = await query(this.queries.info);
         const lower = extent.slice(0, this.dimension), upper = extent.slice(3, 3 + this.dimension);
         const map = this.map ?? this.place(own, lower, upper);
+        const levels = this.page === "plane" ? await levelsOf(query) : null;
         if (lower[0] !== null) this.map = map; // a mesh without a simplex has no place yet
-        this.known = { etag, name, kind: this.kind, dimension: this.dimension, ...stats, attributes, labels: labels ?? [], lower, upper, ...map, system: own,
+        this.known = { etag, name, kind: this.kind, dimension: this.dimension, ...stats, attributes, labels: labels ?? [], levels, lower, upper, ...map, system: own,
             ...(map.srid && this.options.baseMap && { baseMap: this.options.baseMap, credit: this.options.credit }),
             ...(!this.options.mesh && { isOneOfMany: true }),
             edit: Boolean(this.options.edit && stats.changeable) };

@@ -97,10 +97,20 @@ export const plane = {
     volume: "SELECT area, surface, cut, fill, net FROM abacus_volume($2::oid::regclass, $1::oid::regclass, attribute => $3::text, other_attribute => $4::text)",
     lines: `SELECT line, part, kind, x, y FROM abacus_lines($1::oid::regclass) ORDER BY line, position LIMIT $2`,
     picture: `SELECT abacus_tile_picture($1::oid::regclass, $2, $3, $4, $5, $6::float8[], attribute => $7, range => $8::float8[],
-        ramp => $9, contours => $10, exaggeration => $11, edges => $12, size => $13, within => $14, regions => $15) AS tile`,
+        ramp => $9, contours => $10, exaggeration => $11, edges => $12, size => $13, within => $14, regions => $15, max_error => $16) AS tile`,
     vector: "SELECT abacus_tile_vector($1::oid::regclass, $2, $3, $4, $5, $6::float8[], attribute => $7, contours => $8, within => $9) AS tile",
-    mesh: "SELECT abacus_tile_mesh($1::oid::regclass, $2, $3, $4, $5, $6) AS tile",
-    terrain: "SELECT abacus_tile_terrain($1::oid::regclass, $2, $3, $4, $5, $6::float8[], attribute => $7, fill => $8, within => $9) AS tile",
+    mesh: "SELECT abacus_tile_mesh($1::oid::regclass, $2, $3, $4, $5, $6, max_error => $7) AS tile",
+    terrain: "SELECT abacus_tile_terrain($1::oid::regclass, $2, $3, $4, $5, $6::float8[], attribute => $7, fill => $8, within => $9, max_error => $10) AS tile",
+    /** The table of the mesh's levels, if it may be read. */
+    levelsTable: `
+        SELECT c.oid::regclass::text AS name FROM pg_depend AS d JOIN pg_class AS c ON c.oid = d.objid JOIN pg_type AS t ON t.oid = c.reloftype
+        WHERE d.classid = 'pg_class'::regclass AND d.refclassid = 'pg_class'::regclass AND d.refobjid = $1::oid AND t.typname = 'abacus_level'
+          AND has_table_privilege(c.oid, 'SELECT') AND NOT row_security_active(c.oid)`,
+    /** Their attribute, if all may be read and are of the mesh as it is. The name of the table is as PostgreSQL quotes it. */
+    levels: (table) => `
+        SELECT min(attribute) AS attribute FROM ${table}
+        HAVING bool_and(coalesce(has_table_privilege(mesh, 'SELECT'), false))
+           AND NOT EXISTS (SELECT FROM abacus_stats($1::oid::regclass) WHERE name IN ('levels_old', 'levels_lost') AND value > 0)`,
 };
 
 export const space = {

@@ -1,5 +1,6 @@
 // What a browser may ask: each path with the parameters that it takes, checked before anything is
 // sent to the database.
+import { errorOfPixel, errorOfTile } from "./detail.js";
 import { edits, kinds, plane, space } from "./queries.js";
 import { Refused } from "./errors.js";
 
@@ -162,13 +163,14 @@ export function tile(kind, z, x, y, p, mesh) {
     const values = [...place, mesh.srid, mesh.world, attribute];
     const found = mesh.attributes.find((one) => one.name === attribute);
     const contours = attribute === null ? null : p.number("contours", 0) || null;
-    const within = p.text("within");
-    if (kind === "terrain") return { text: plane.terrain, values: [...values, p.text("outside") === "none" ? noData : found?.least ?? 0, within] };
+    const within = p.text("within"), regions = p.flag("regions");
+    const error = within === null && !regions && !p.flag("exact") ? errorOfTile(mesh, found, place[0]) : null; // levels have no regions
+    if (kind === "terrain") return { text: plane.terrain, values: [...values, p.text("outside") === "none" ? noData : found?.least ?? 0, within, error] };
     if (kind === "vector") return { text: plane.vector, values: [...values, contours, within] };
     const low = p.number("low", found?.least ?? null), high = p.number("high", found?.greatest ?? null);
     const range = low === null ? null : [low, high > low ? high : low + 1];
     return { text: plane.picture, values: [...values, range, attribute === null ? null : p.text("ramp"), contours,
-        attribute === null ? 0 : p.number("exaggeration", 0), p.text("edges") !== "no", p.number("size", 256), within, p.flag("regions")] };
+        attribute === null ? 0 : p.number("exaggeration", 0), p.text("edges") !== "no", p.number("size", 256), within, regions, error] };
 }
 
 // ---- Pictures of meshes in space, octrees and quadtrees -------------------------------------------
@@ -210,13 +212,15 @@ function wholePicture(p, mesh, most, isBrief = false) {
     return [...size, name, isBrief || p.flag("edges"), window.slice(0, 2), window.slice(2), range, isBrief ? "strata" : ramp];
 }
 
+const sideOfBriefTile = 360;
+
 /** A small picture of a mesh in the plane: a tile of a map on which it takes all of one tile. */
 function briefOfPlane(mesh) {
     const { lower, upper } = mesh, side = Math.max(...upper.map((x, i) => x - lower[i])) * 1.06 || 1;
     const found = mesh.attributes[0], world = [(lower[0] + upper[0] - side) / 2, (lower[1] + upper[1] - side) / 2, side];
     const isSurface = found !== undefined && found.least !== null;
     return { text: plane.picture, values: [0, 0, 0, null, world, isSurface ? found.name : null, isSurface ? [found.least, Math.max(found.greatest, found.least + 1e-300)] : null, isSurface ? "terrain" : null, null,
-        isSurface ? side / 9 / (found.greatest - found.least || 1) : 0, !isSurface || mesh.simplices < 2000, 360, null, false] };
+        isSurface ? side / 9 / (found.greatest - found.least || 1) : 0, !isSurface || mesh.simplices < 2000, sideOfBriefTile, null, false, errorOfPixel(mesh, found, side / sideOfBriefTile)] };
 }
 
 /** A picture that is not a tile, of the mesh as described: its statement and parameters. */

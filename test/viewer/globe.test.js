@@ -32,6 +32,21 @@ test("layer.json names the tiles, and each is that of SQL", async () => {
     assert.equal((await servers.all.get("/mesh/public/valley/globe/layer.json")).status, 200);
 });
 
+test("tiles come from levels of detail whose error is half a pixel of Cesium's, the same for all tiles of a zoom", async () => {
+    psql("SELECT abacus_levels('seaside', '{0.5,20}')");
+    try {
+        const { body: info } = await servers.seaside.get("/api/info"), { EllipsoidTerrainProvider, WebMercatorTilingScheme } = await import(packages.resolve("@cesium/engine"));
+        assert.equal(info.levels, "height");
+        for (const [z, x, y] of [[4, 8, 10], [10, 532, 659], [12, 2128, 2639]]) {
+            const ofCesium = new EllipsoidTerrainProvider({ tilingScheme: new WebMercatorTilingScheme() }).getLevelMaximumGeometricError(z);
+            const bytes = Buffer.from(await (await fetch(`${servers.seaside.origin}/globe/${z}/${x}/${y}.terrain`)).arrayBuffer()).toString("hex");
+            assert.equal(bytes, psql(`SELECT encode(abacus_tile_mesh('seaside', ${z}, ${x}, ${y}, max_error => ${ofCesium / 4}), 'hex')`), `${z}/${x}/${y}`);
+        }
+    } finally {
+        psql("SELECT abacus_levels_drop('seaside')");
+    }
+});
+
 test("Cesium's own parser reads what was written", async () => {
     const { CesiumTerrainProvider } = await import(packages.resolve("@cesium/engine"));
     for (const [name, z, x, y] of Object.entries(inside).flatMap(([name, tiles]) => tiles.map((tile) => [name, ...tile]))) {

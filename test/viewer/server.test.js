@@ -178,6 +178,45 @@ test("the border has the values of SQL; tiles say where the mesh is not, and tak
     assert.equal((await plane.get("/api/hull?attribute=depth")).status, 400);
 });
 
+test("levels of detail: pictures and heights of small zooms come from them, unless the mesh has changed or exact ones are wanted", async () => {
+    psql(`SET client_min_messages = warning; DROP TABLE IF EXISTS detailed CASCADE;
+        SELECT abacus_triangulate('detailed', 'SELECT 1000 * i + j AS id, 10 * i + (j % 3) AS x, 10 * j + (i % 3) AS y, 100 * sin(i / 9.0) * cos(j / 11.0) + (i * j) % 7 / 9.0 AS height, i::float8 AS other FROM generate_series(0, 79) AS i, generate_series(0, 79) AS j');
+        SELECT abacus_levels('detailed', '{0.6,5}', 'height')`);
+    const server = await serve("detailed"), role = "regress_levels";
+    try {
+        const { body: info } = await server.get("/api/info"), { least, greatest } = info.attributes[0], error = (greatest - least) / 256, own = `world => '{${info.world}}', attribute => 'height'`;
+        assert.equal(info.levels, "height");
+        const same = async (path, call, where = server) => assert.ok(Buffer.from(await (await fetch(where.origin + path)).arrayBuffer()).equals(Buffer.from(psql(`SELECT encode(${call}, 'hex')`), "hex")), path);
+        const place = (z) => [z, 2 ** (z - 1), 2 ** (z - 1) - 1], picture = (z, more = "") => `abacus_tile_picture('detailed', ${place(z)}, ${own}, range => '{0,50}', edges => false${more})`;
+        const heights = (z, more = "") => `abacus_tile_terrain('detailed', ${place(z)}, ${own}, fill => -32768${more})`, ask = "attribute=height&low=0&high=50&edges=no", within = `, max_error => ${error}`;
+        assert.equal(psql(`SELECT abacus_level('detailed', ${error})`), "detailed_level_1"); // or nothing would be seen of it
+        assert.notEqual(psql(`SELECT md5(${picture(8)})`), psql(`SELECT md5(${picture(8, within)})`));
+        await same(`/tiles/picture/${place(8).join("/")}?${ask}`, picture(8, within));
+        await same(`/tiles/picture/${place(12).join("/")}?${ask}`, picture(12));
+        await same(`/tiles/terrain/${place(8).join("/")}?attribute=height&outside=none`, heights(8, within));
+        await same(`/tiles/terrain/${place(8).join("/")}?attribute=height&outside=none&exact=yes`, heights(8));
+        await same(`/tiles/terrain/${place(12).join("/")}?attribute=height&outside=none`, heights(12));
+        await same(`/tiles/picture/${place(8).join("/")}?attribute=other&low=0&high=50&edges=no`, picture(8).replace("'height'", "'other'")); // the levels are those of another attribute
+        // a role that may not read the levels
+        psql(`SET client_min_messages = warning; DROP ROLE IF EXISTS ${role}; CREATE ROLE ${role} LOGIN; GRANT SELECT ON detailed, detailed_vertices, detailed_levels TO ${role}`);
+        const other = await serve("detailed", { dbname: `user=${role}` });
+        try {
+            assert.equal((await other.get("/api/info")).body.levels, null);
+            await same(`/tiles/picture/${place(8).join("/")}?${ask}`, picture(8), other);
+        } finally {
+            await other.stop();
+        }
+        psql("SELECT abacus_insert('detailed', 'SELECT -1, 401.5, 402.5, 90.0, 0.0')"); // the levels are older now
+        assert.equal((await server.get("/api/info")).body.levels, null);
+        await same(`/tiles/picture/${place(8).join("/")}?${ask}`, picture(8));
+        psql("SELECT abacus_levels_refresh('detailed')");
+        await same(`/tiles/picture/${place(8).join("/")}?${ask}`, picture(8, `, max_error => ${error}`));
+    } finally {
+        await server.stop();
+        psql(`SET client_min_messages = warning; DROP TABLE IF EXISTS detailed CASCADE; DROP ROLE IF EXISTS ${role}`);
+    }
+});
+
 test("regions: their list, the one at a place, and tiles and borders of one alone, as SQL has them", async () => {
     const shire = await serve("shire"), lake = `O'Hara & "lake"`, named = encodeURIComponent(lake), quoted = "$$" + lake + "$$";
     try {

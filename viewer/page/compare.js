@@ -25,7 +25,7 @@ async function choose(others) {
         element("other").value = "";
         say("Both meshes must have an attribute.", "error");
     } else if (other) {
-        const addresses = [tileAddress("terrain", { outside: "none" }), tileAddress("terrain", { outside: "none", of: other.of, attribute: name })]
+        const addresses = [{}, { of: other.of, attribute: name }].map((more) => tileAddress("terrain", { outside: "none", exact: "yes", ...more }))
             .map((address) => (z, x, y) => address.replace("{z}", z).replace("{x}", x).replace("{y}", y));
         setDifference({ addresses, most: 1 });
         const [a, b] = [mesh.lower, mesh.upper].map((place) => maplibre.MercatorCoordinate.fromLngLat(coordinates.toMap(place)));
