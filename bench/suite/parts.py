@@ -5,6 +5,7 @@ from ask import Ask
 from builds import Contest
 from carried import Carried
 from core import core
+from detail import Detail
 from driver import Part
 from edits import Edits, SharedDeletes, cancelled_builds
 from goose import Goose
@@ -91,6 +92,8 @@ PARTS = [
         {"full": (1000000, 4096), "quick": (100000, 512), "smoke": (5000, 64)}).measure),
     Part("thin", "a raster of 4096² heights thinned, beside delatin", 12, Thin(
         {"full": 4096, "quick": 512, "smoke": 64}).measure),
+    Part("detail", "six levels of detail beside the build of their mesh, and tiles of terrain of triangles", 10, Detail(
+        {"full": (1000000, 10000000), "quick": (100000, 1000000), "smoke": (5000,)}).measure),
     Part("carried", "windows of a foreign table, tiles of web maps, facets with markers, files", 5, Carried(
         {"full": (1000000, 800000), "quick": (100000, 50000), "smoke": (5000, 500)}, FEWER).measure),
     Part("octree", "octrees of points: made, balanced, extracted, asked, beside p4est", 8, Octrees(

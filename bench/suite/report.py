@@ -1,4 +1,5 @@
 """Makes docs/benchmarks.md and its pictures from results and from page.md.in, its template."""
+import detail_tables
 import document
 import habits
 import plots
@@ -20,6 +21,7 @@ TABLES = {"location": (tables.location, ("locate",)), "cold": (tables.cold, ("co
           "surfaces": (tables.surfaces, ("surface",)), "octrees": (tables.octrees, ("octree",)), "gpu": (tables.gpu, ("gpu",)),
           "lines": (tables.lines, ("lines", "line insert")),
           "within": (region_tables.within, ("within", "region step")), "terrain": (region_tables.terrain, ("terrain", "region edit")),
+          "levels": (detail_tables.levels, ("levels", "tile mesh")),
           "threads": (tables.threads, ("threads", "shared reading")), "edits": (tables.edits, ("edit",)),
           "cancels": (tables.cancels, ("cancel",)), "core": (tables.core, ("core",)),
           "goose": (habits.goose, ("goose",)), "rows": (habits.rows, ("rows",))}

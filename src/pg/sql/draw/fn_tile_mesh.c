@@ -39,18 +39,33 @@ static const char *const formats[] = {"quantized-mesh", "glb", NULL};
 /* Whether y counts from the north */
 static const char *const schemes[] = {"tms", "xyz", NULL};
 
-/*
- * Opens the mesh, or a level of it. An error in pixels is no argument: it would be another level for the next row of
- * tiles, and tiles of two levels have a gap between them.
- */
 static Reader *
-open_mesh(FunctionCallInfo fcinfo)
+open_surface(Oid mesh)
 {
-	Reader	   *reader = reader_open(level_argument(fcinfo, &mesh_level), CurrentMemoryContext);
+	Reader	   *reader = reader_open(mesh, CurrentMemoryContext);
 
 	header_require_dimension(&reader->header.facts.form, 2, "Use a mesh in the plane.");
 	header_require_attributes(&reader->header.facts);
 	return reader;
+}
+
+/*
+ * Opens the mesh, or a level of it, and says where the tile is: by the SRID of the mesh itself, which its levels need not
+ * have. An error in pixels is no argument: it would be another level for the next row of tiles, and tiles of two
+ * levels have a gap between them.
+ */
+static Reader *
+open_mesh(FunctionCallInfo fcinfo, abacus_tile *tile)
+{
+	Oid			level = level_argument(fcinfo, &mesh_level);
+	Reader	   *reader = open_surface(PG_GETARG_OID(MESH_MESH));
+
+	tile_map(fcinfo, MESH_SRID, MESH_WORLD, &reader->header.facts.form, tile);
+	if (level == PG_GETARG_OID(MESH_MESH))
+		return reader;
+	host_release(reader->host);
+	host_destroy(reader->host);
+	return open_surface(level);
 }
 
 /* What the coordinates are. */
@@ -85,12 +100,11 @@ abacus_sql_tile_mesh(PG_FUNCTION_ARGS)
 	for (int i = 0; i < MESH_ATTRIBUTE; i++)
 		if (PG_ARGISNULL(i))
 			PG_RETURN_NULL();
-	reader = open_mesh(fcinfo);
+	reader = open_mesh(fcinfo, &tile);
 	kind.format = word_argument(fcinfo, MESH_FORMAT, formats, "format", "Use quantized-mesh or glb.");
 	kind.from_south = word_argument(fcinfo, MESH_SCHEME, schemes, "scheme",
 									"Use tms, where y counts from the south, or xyz, where it counts from the north.") == 0;
 	kind.attribute = (uint32) tile_attribute(fcinfo, MESH_ATTRIBUTE, abacus_names_of(&reader->header));
-	tile_map(fcinfo, MESH_SRID, MESH_WORLD, &reader->header.facts.form, &tile);
 	kind.plane = plane_of(fcinfo, &tile, kind.format);
 	tile.zoom = PG_GETARG_INT32(MESH_ZOOM);
 	tile.x = PG_GETARG_INT32(MESH_X);
