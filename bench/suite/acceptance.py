@@ -202,6 +202,26 @@ def with_lines(way):
     return measured
 
 
+def levels(results, figure="wall"):
+    """Six levels of a mesh of 10 M points, to its build."""
+    return ratio(*(results.median(figure, what="levels", points=10**7, made=made) for made in ("levels", "mesh")))
+
+
+def tile_meshes(figure, points):
+    """The medians of all zooms."""
+    def measured(results):
+        found = [median(measurement, figure) for measurement in results.all(what="tile mesh", points=points)]
+        return max(found) if found else None
+    return measured
+
+
+def pages_of_tiles(results):
+    """The zoom at which pages differ most between meshes of 10 M and of 1 M points."""
+    ratios = [ratio(median(measurement, "pages"), results.median("pages", what="tile mesh", points=10**6, zoom=measurement["zoom"]))
+              for measurement in results.all(what="tile mesh", points=10**7)]
+    return max((found for found in ratios if found is not None), default=None)
+
+
 WANTED = [
     Timed("2D, 1 M uniform: table to committed mesh ÷ CGAL in core", 1.0, True,
           times("abacus", "cgal", 2, "uniform", 10**6)),
@@ -274,6 +294,9 @@ WANTED = [
     Timed("Terrain of 500,000 points, 20,000 breaklines, 300 regions: tables to contours, lines in the call ÷ points alone", 2, True,
           with_lines("points and lines in one call")),
     Timed("… points first, then lines ÷ points alone", 2, True, with_lines("points, then lines")),
+    Timed("Six levels of a mesh of 10 M points ÷ its build", 2, True, levels),
+    Wanted("`abacus_tile_mesh`, levels of a mesh of 10 M, the slowest zoom: median CPU time, s", 0.015, True, tile_meshes("cpu", 10**7)),
+    Wanted("… pages of a tile at 10 M points ÷ at 1 M, the greatest of all zooms", 1.2, True, pages_of_tiles),
     Wanted("2D, 1 M points: size after half of them were replaced and VACUUM ÷ fresh", 1.5, True, space(2)),
     Wanted("3D, 500,000 points: … ÷ fresh", 1.5, True, space(3)),
 ]

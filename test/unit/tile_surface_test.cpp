@@ -100,10 +100,12 @@ TEST(TileSurface, FitsItsNeighbours) {
             for (int y = 0; y < n; ++y) {
                 const auto &tile = tiles.at({x, y});
                 EXPECT_FALSE(tile.empty());
-                if (x + 1 < n)
+                if (x + 1 < n) {
                     EXPECT_EQ(on(tile, east_border), on(tiles.at({x + 1, y}), west_border));
-                if (y + 1 < n)
+                }
+                if (y + 1 < n) {
                     EXPECT_EQ(on(tile, north_border), on(tiles.at({x, y + 1}), south_border));
+                }
             }
     }
 }
