@@ -100,11 +100,11 @@ levels_may_read(Oid mesh)
 int
 levels_read_if_allowed(Oid mesh, Level **levels)
 {
-	Oid			table;
+	Oid			table = mesh_find_rows_table(mesh, MESH_LEVELS);
 	Relation	rel;
 	int			count;
 
-	if (!levels_may_read(mesh))
+	if (!OidIsValid(table) || !levels_may_read(mesh))
 		return 0;
 	rel = mesh_table_open(mesh, MESH_READ);
 	table = mesh_rows_table(rel, MESH_LEVELS, MESH_READ);
