@@ -10,6 +10,7 @@ CORE.exact += src/geometry/crossing.cpp
 CORE.exact += src/geometry/cutting_plane.cpp
 CORE.exact += src/geometry/distance.cpp
 CORE.exact += src/geometry/equidistant.cpp
+CORE.exact += src/geometry/greatest_difference.cpp
 CORE.exact += src/geometry/line.cpp
 CORE.exact += src/geometry/misfit.cpp
 CORE.exact += src/geometry/polygon.cpp

@@ -50,6 +50,24 @@ SELECT count(*) FROM abacus_lines('thin_new');
 DROP TABLE thin_new;
 SELECT abacus_unconstrain('thin_mesh', 'VALUES (1), (2), (3)');
 
+-- what a loaded mesh has beyond vertices does not come along
+SELECT abacus_load('thin_holes', 'SELECT id, x, y, height FROM thin_ground',
+    $$ SELECT v0, v1, v2, CASE WHEN v0 < 3000 THEN 1 ELSE 2 END AS soil FROM abacus_cells('thin_mesh') WHERE NOT (("corners")[1][1] BETWEEN 20 AND 40 AND ("corners")[1][2] BETWEEN 20 AND 40) $$,
+    '{height}', labels => '{soil}');
+SELECT abacus_thin('thin_holes', 'thin_new', 0.25) <= 0.25 AS is_within;
+SELECT * FROM abacus_check('thin_new');
+DROP TABLE thin_new;
+SELECT count(*) FROM abacus_levels('thin_holes', '{0.5, 1}');
+CALL abacus_thin_build('thin_holes', 'thin_new', 0.25);
+-- an interrupted thinning goes on only with a mesh that nobody has touched, and until it is done no mesh is made of it
+UPDATE thin_new_thinning SET greatest = NULL;
+CALL abacus_thin_build('thin_holes', 'thin_new', 0.25);
+SELECT abacus_thin('thin_new', 'thin_newer', 1);
+CALL abacus_thin_build('thin_new', 'thin_newer', 1);
+SELECT abacus_levels('thin_new', '{1}');
+SELECT count(*) FROM pg_class WHERE relname LIKE 'thin_newer%' OR relname LIKE 'thin_new_level%';
+DROP TABLE thin_new, thin_holes;
+
 -- vertices without a value, duplicates, and points that wait
 SELECT abacus_update('thin_mesh', 'SELECT id, x, y, NULL::float8 AS height FROM thin_ground WHERE x > 50 OR id = 3030');
 SELECT abacus_insert('thin_mesh', 'VALUES (9001, 5.0, 5.0, 1.0, 1.0)');
@@ -80,6 +98,14 @@ SELECT abacus_triangulate('thin_apart', 'SELECT 10 * x + y, x, y, ' || (SELECT s
 SELECT abacus_thin('thin_apart', 'thin_new', 2, 'a30') <= 2 AS is_within;
 SELECT count(*) < 100 AS is_thin, count(v.id) = count(w.id) AS same FROM abacus_vertices('thin_new') AS v LEFT JOIN abacus_vertices('thin_apart') AS w USING (id, attributes);
 DROP TABLE thin_new, thin_apart;
+
+-- an error beyond all doubles
+SELECT abacus_triangulate('thin_extreme', 'VALUES (1, 0, 0, -1.7e308), (2, 4, 0, -1.7e308), (3, 0, 4, -1.7e308), (4, 1, 1, 1.7e308)', '{h}');
+SELECT abacus_thin('thin_extreme', 'thin_new', 1e308, target => 3);
+SELECT greatest FROM thin_new_thinning;
+DROP TABLE thin_new;
+SELECT abacus_thin('thin_extreme', 'thin_new', 1e308);
+DROP TABLE thin_new, thin_extreme;
 
 -- errors leave no table
 SELECT abacus_thin(NULL, 'thin_new', 1);

@@ -112,4 +112,29 @@ SELECT abacus_compare(NULL, 'compare_low');
 SELECT abacus_compare('compare_roof', 'compare_low', 'slope');
 SELECT abacus_triangulate('compare_solid', 'VALUES (1, 0, 0, 0, 1), (2, 1, 0, 0, 1), (3, 0, 1, 0, 1), (4, 0, 0, 1, 1)', '{h}', dimension => 3);
 SELECT abacus_compare('compare_roof', 'compare_solid');
+SELECT abacus_compare('compare_solid', 'compare_roof');
 DROP TABLE compare_low, compare_roof, compare_solid;
+-- in space
+SELECT abacus_triangulate('compare_cube', $$SELECT 4 * x + 2 * y + z, x, y, z, x + y FROM generate_series(0, 1) AS x, generate_series(0, 1) AS y, generate_series(0, 1) AS z$$, '{h}', dimension => 3);
+SELECT abacus_triangulate('compare_peak', $$SELECT 4 * x + 2 * y + z, x, y, z, x + y FROM generate_series(0, 1) AS x, generate_series(0, 1) AS y, generate_series(0, 1) AS z
+    UNION ALL VALUES (9, 0.5, 0.5, 0.5, 5)$$, '{h}', dimension => 3);
+SELECT greatest, x, y, z, round(mean::numeric, 12) AS mean, round(mean_absolute::numeric, 12) AS mean_absolute, round((rms * rms)::numeric, 12) AS squares FROM abacus_compare('compare_peak', 'compare_cube');
+SELECT greatest, x, y, z, round(mean::numeric, 12) AS mean FROM abacus_compare('compare_cube', 'compare_peak', lower => '{0, 0, 0}', upper => '{0.25, 1, 1}');
+SELECT * FROM abacus_compare('compare_peak', 'compare_peak');
+SELECT * FROM abacus_compare('compare_peak', 'compare_cube', lower => '{8, 8, 8}', upper => '{9, 9, 9}');
+SELECT abacus_compare('compare_peak', 'compare_cube', lower => '{0, 0}', upper => '{1, 1}');
+SELECT abacus_compare('compare_peak', 'compare_cube', within => 'POLYGON((0 0, 1 0, 1 1, 0 0))');
+DROP TABLE compare_cube, compare_peak;
+-- numbers of any size
+SELECT abacus_triangulate('compare_large', $$SELECT 4 * x + y, x * 1e170, y * 1e170, 1e200 FROM generate_series(0, 3) AS x, generate_series(0, 3) AS y$$, '{h}');
+SELECT abacus_triangulate('compare_huge', $$SELECT x AS id, x * 1e170 AS x, (x % 2) * 2e170 AS y, x * 1e200 AS h FROM generate_series(0, 3) AS x$$, '{h}');
+SELECT greatest, x, y, mean, mean_absolute FROM abacus_compare('compare_large', 'compare_huge');
+DROP TABLE compare_large, compare_huge;
+SELECT abacus_triangulate('compare_tiny', $$SELECT 4 * x + y, x * 1e-170, y * 1e-170, x * 1e-200 FROM generate_series(0, 3) AS x, generate_series(0, 3) AS y$$, '{h}');
+SELECT greatest, x, y, mean, mean_absolute, rms FROM abacus_compare('compare_tiny', 'compare_tiny');
+DROP TABLE compare_tiny;
+SELECT abacus_triangulate('compare_high', 'VALUES (1, 0, 0, 1.5e308), (2, 4, 0, 1.5e308), (3, 0, 4, 1.5e308)', '{h}');
+SELECT abacus_triangulate('compare_deep', 'VALUES (1, 0, 0, -1.5e308), (2, 4, 0, -1.5e308), (3, 0, 4, -1.5e308)', '{h}');
+SELECT greatest, mean, rms FROM abacus_compare('compare_high', 'compare_high');
+SELECT abacus_compare('compare_high', 'compare_deep');
+DROP TABLE compare_high, compare_deep;

@@ -47,18 +47,19 @@ ABACUS_API abacus_status abacus_volume_between(const abacus_host *host,
 											   abacus_volume *volume, abacus_error *error);
 
 /*
- * How two surfaces differ where both are, the values of the first less those of the other: the
+ * How two meshes differ where both have values, those of the first less those of the other: the
  * greatest difference by its absolute value, and where; the mean, the mean of the absolute value, and
- * the root of the mean square, weighted by area.
+ * the root of the mean square, weighted by area or volume. Infinite, or NaN, where the range of doubles
+ * is too small.
  */
 typedef struct abacus_comparison
 {
 	int is_any;            /* 0: they have no part in common, and all else is 0 */
-	double greatest, place[2];
+	double greatest, place[ABACUS_MAX_DIMENSION];
 	double mean, mean_absolute, rms;
 } abacus_comparison;
 
-/* Of two meshes, as abacus_volume_between(). */
+/* Of two meshes of the same dimension, as abacus_volume_between(). */
 ABACUS_API abacus_status abacus_compare(const abacus_host *host, const abacus_facts *facts,
 										const abacus_surface *surface,
 										const abacus_host *other_host, const abacus_facts *other,

@@ -72,6 +72,7 @@ CREATE FUNCTION abacus_compare(
     OUT "greatest" double precision,
     OUT x double precision,
     OUT y double precision,
+    OUT z double precision,
     OUT mean double precision,
     OUT mean_absolute double precision,
     OUT rms double precision)
@@ -79,4 +80,4 @@ RETURNS record
 AS 'MODULE_PATHNAME', 'abacus_sql_compare'
 LANGUAGE C STABLE PARALLEL SAFE COST 1000000;
 COMMENT ON FUNCTION abacus_compare(regclass, regclass, text, double precision[], double precision[], double precision, text, text) IS
-    'how two meshes in the plane differ where both have a surface: the values of the first less those of the other, over the overlay of their triangles. greatest is the difference with the greatest absolute value and x, y where it is; mean, mean_absolute and rms are weighted by area. All are NULL if the meshes have no part in common. within is the name of a region of the mesh, or a polygon as WKT, EWKT or hexadecimal EWKB; all else is as outside of the mesh. Shapes: lower and upper are {x, y}. Units: lower, upper, max_edge, x and y in those of the coordinates, all else in those of the attribute. Errors: 22023 a bad window, a mesh in space; 2202E other lengths; 22003 a result out of range; 42703 no such attribute, 42702 none named where the mesh has several, 55000 none at all; 42704 no such region';
+    'how two meshes differ where both have values: those of the first less those of the other, over the overlay of their simplices. greatest is the difference with the greatest absolute value and x, y, z where it is, z being NULL in the plane; mean, mean_absolute and rms are weighted by area, in space by volume. All are NULL if the meshes have no part in common. within is the name of a region of the mesh, or a polygon as WKT, EWKT or hexadecimal EWKB; all else is as outside of the mesh. Shapes: lower and upper are {x, y}, in space {x, y, z}. Units: lower, upper, max_edge, x, y and z in those of the coordinates, all else in those of the attribute. Errors: 22023 a bad window, meshes of different dimensions; 2202E other lengths; 22003 a result out of range; 42703 no such attribute, 42702 none named where the mesh has several, 55000 none at all; 42704 no such region';

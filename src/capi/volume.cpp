@@ -19,6 +19,11 @@ void require_plane(const abacus_facts &facts, const abacus_facts &other) {
         throw abacus::Error(ABACUS_ERROR_ARGUMENT, "both meshes must have dimension 2");
 }
 
+void require_same_dimension(const abacus_facts &facts, const abacus_facts &other) {
+    if (facts.form.dimension != other.form.dimension)
+        throw abacus::Error(ABACUS_ERROR_ARGUMENT, "both meshes must have the same dimension");
+}
+
 void require_attribute(const abacus_facts &other, std::uint32_t attribute) {
     if (attribute >= other.columns.attributes)
         throw abacus::Error(ABACUS_ERROR_ARGUMENT, "the other mesh has no such attribute");
@@ -61,12 +66,14 @@ abacus_status abacus_compare(const abacus_host *host, const abacus_facts *facts,
                              size_t cache_bytes, abacus_comparison *comparison,
                              abacus_error *error) {
     return abacus::guard(error, [&] {
-        require_plane(*facts, *other);
+        require_same_dimension(*facts, *other);
         require_box(*surface, *facts);
         require_attribute(*other, other_attribute);
         const abacus::Host first(*host), second(*other_host);
-        *comparison = abacus::compare(first, *facts, *surface,
-                                      {second, *other, other_attribute, cache_bytes});
+        const abacus::OtherMesh against{second, *other, other_attribute, cache_bytes};
+        *comparison = facts->form.dimension == 2
+                          ? abacus::compare<2>(first, *facts, *surface, against)
+                          : abacus::compare<3>(first, *facts, *surface, against);
         return ABACUS_OK;
     });
 }

@@ -5,7 +5,7 @@
 
 namespace abacus {
 
-void ExactSum::carry() {
+template <int below, int above> void SumOf<below, above>::carry() {
     for (std::size_t i = 0; i + 1 < size; ++i) {
         const std::int64_t over = digits_[i] >> digit_bits;
         digits_[i] -= over << digit_bits;
@@ -14,16 +14,17 @@ void ExactSum::carry() {
     added_ = 0;
 }
 
-void ExactSum::add(const ExactSum &other) {
-    ExactSum more = other;
+template <int below, int above> void SumOf<below, above>::add(const SumOf &other) {
+    SumOf more = other;
     more.carry();
     carry(); // so that digits have room
     for (std::size_t i = 0; i < size; ++i) digits_[i] += more.digits_[i];
     added_ = 1;
 }
 
-ExactSum ExactSum::times(std::uint32_t factor) const {
-    ExactSum product = *this;
+template <int below, int above>
+SumOf<below, above> SumOf<below, above>::times(std::uint32_t factor) const {
+    SumOf product = *this;
     product.carry();
     __int128 over = 0;
     for (std::size_t i = 0; i < size; ++i) {
@@ -39,8 +40,8 @@ ExactSum ExactSum::times(std::uint32_t factor) const {
     return product;
 }
 
-bool ExactSum::operator<(const ExactSum &other) const {
-    ExactSum difference = *this, less = other;
+template <int below, int above> bool SumOf<below, above>::operator<(const SumOf &other) const {
+    SumOf difference = *this, less = other;
     difference.carry();
     less.carry();
     for (std::size_t i = 0; i < size; ++i) difference.digits_[i] -= less.digits_[i];
@@ -48,9 +49,14 @@ bool ExactSum::operator<(const ExactSum &other) const {
     return difference.digits_.back() < 0;
 }
 
-double ExactSum::value() const {
-    if (special_ != 0) return special_; // also NaN
-    ExactSum sum = *this;
+template <int below, int above> double SumOf<below, above>::value() const {
+    const ScaledNumber number = scaled();
+    return std::scalbn(number.value, number.exponent);
+}
+
+template <int below, int above> ScaledNumber SumOf<below, above>::scaled() const {
+    if (special_ != 0) return {special_, 0}; // also NaN
+    SumOf sum = *this;
     sum.carry();
     const bool is_negative = sum.digits_.back() < 0;
     if (is_negative) {
@@ -66,9 +72,11 @@ double ExactSum::value() const {
         leading = leading << digit_bits | static_cast<Wide>(sum.digits_[i]);
     const bool is_rest = std::any_of(sum.digits_.begin(), sum.digits_.begin() + last,
                                      [](std::int64_t digit) { return digit != 0; });
-    const double value = std::scalbn(static_cast<double>(leading | static_cast<Wide>(is_rest)),
-                                     static_cast<int>(last * digit_bits) - 1074);
-    return is_negative ? -value : value;
+    const auto value = static_cast<double>(leading | static_cast<Wide>(is_rest));
+    return {is_negative ? -value : value, static_cast<int>(last * digit_bits) - 1074 - below};
 }
+
+template class SumOf<0, 0>;
+template class SumOf<5440, 5184>;
 
 } // namespace abacus

@@ -4,6 +4,9 @@
 // digits of 32 bits, each in a word of 64 (R. Neal, "Fast exact summation using small and large
 // superaccumulators", 2015). So a digit takes a billion summands before it must be carried, and a
 // summand changes three digits. The sum is rounded once, when it is asked for.
+//
+// Summands may have a power of two as a factor, which reaches beyond the range of doubles: products
+// of several doubles are summed that neither overflow nor underflow.
 #pragma once
 
 #include <array>
@@ -12,9 +15,17 @@
 
 namespace abacus {
 
-class ExactSum {
+/// A number of any size: value * 2^exponent.
+struct ScaledNumber {
+    double value;
+    int exponent;
+};
+
+/// Of doubles times powers of two, from 2^-below to 2^above.
+template <int below, int above> class SumOf {
 public:
-    void add(double x) {
+    /// Adds x * 2^scale.
+    void add(double x, int scale = 0) {
         const auto bits = std::bit_cast<std::uint64_t>(x);
         const auto exponent = static_cast<unsigned>(bits >> fraction_bits & 0x7ff);
         if (exponent == 0x7ff) { // infinite, or no number
@@ -22,10 +33,10 @@ public:
             return;
         }
         std::uint64_t fraction = bits & ((std::uint64_t{1} << fraction_bits) - 1);
-        unsigned place = 0;
+        auto place = static_cast<unsigned>(below + scale);
         if (exponent != 0) {
             fraction |= std::uint64_t{1} << fraction_bits;
-            place = exponent - 1;
+            place += exponent - 1;
         }
         const Wide wide = static_cast<Wide>(fraction) << place % digit_bits;
         std::int64_t *const digit = &digits_[place / digit_bits];
@@ -36,18 +47,20 @@ public:
         if (++added_ == most_added) carry();
     }
     /// Sums without infinities and NaN.
-    void add(const ExactSum &other);
-    ExactSum times(std::uint32_t factor) const;
-    bool operator<(const ExactSum &other) const;
+    void add(const SumOf &other);
+    SumOf times(std::uint32_t factor) const;
+    bool operator<(const SumOf &other) const;
     bool is_zero() const { return value() == 0; }
     /// The double nearest to the sum; infinite beyond all of them, or after an infinite summand.
     double value() const;
+    /// The sum with the precision of a double, whatever its size.
+    ScaledNumber scaled() const;
 
 private:
     using Wide = unsigned __int128;
     static constexpr unsigned fraction_bits = 52, digit_bits = 32;
     /// 2^2098 is beyond all doubles; there is room for as many as a word can count.
-    static constexpr std::size_t size = (2098 + 64) / digit_bits + 1;
+    static constexpr std::size_t size = (below + 2098 + above + 64) / digit_bits + 1;
     /// Of 2^32 each, in 63 bits, with what was carried into a digit.
     static constexpr std::uint32_t most_added = 1u << 30;
 
@@ -58,5 +71,12 @@ private:
     std::uint32_t added_ = 0; ///< since the last carry
     double special_ = 0;
 };
+
+using ExactSum = SumOf<0, 0>;
+/// Of products of up to five doubles.
+using WideSum = SumOf<5440, 5184>;
+
+extern template class SumOf<0, 0>;
+extern template class SumOf<5440, 5184>;
 
 } // namespace abacus

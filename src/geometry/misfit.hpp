@@ -121,6 +121,14 @@ public:
         return !is_level_with(value) && !(least > 1e-280 && of.most() < least);
     }
 
+    /// |N| / |V| is at most this; infinite where that is not known.
+    double most(const Magnitude &of) const {
+        constexpr double rounding = 1e-15;
+        const double most = of.most() / volume_.least() * (1 + rounding);
+        return volume_.least() > 1e-280 && most >= 0 ? most
+                                                     : std::numeric_limits<double>::infinity();
+    }
+
 private:
     using System = LinearSystem<double, D>;
     using Matrix = typename System::Matrix;

@@ -7,6 +7,8 @@
 #include "geometry/predicates.hpp"
 
 #include "geometry/cgal_points.hpp"
+#include "geometry/linear_system.hpp"
+#include "geometry/rational.hpp"
 
 #include <optional>
 
@@ -16,18 +18,19 @@ namespace {
 
 using Wide = __int128;
 
-template <class T> int sign(T value) { return (value > 0) - (value < 0); }
+template <class T> int sign(const T &value) { return (value > 0) - (value < 0); }
 
-/// The points' differences from `origin` as integers in a common unit, if they are exact and have
-/// at most `bits` bits.
+/// The points' differences from the origins, one for each, as integers in a common unit, if they
+/// are exact and have at most `bits` bits.
 template <int D, std::size_t N>
 std::optional<std::array<std::array<std::int64_t, D>, N>>
-differences(const std::array<const Point<D> *, N> &points, const Point<D> &origin, int bits) {
+differences(const std::array<const Point<D> *, N> &points,
+            const std::array<const Point<D> *, N> &origins, int bits) {
     std::array<std::array<double, D>, N> difference;
     double largest = 0, rounded = 0;
     for (std::size_t n = 0; n < N; ++n)
         for (int axis = 0; axis < D; ++axis) {
-            const double a = (*points[n])[axis], b = origin[axis], d = a - b;
+            const double a = (*points[n])[axis], b = (*origins[n])[axis], d = a - b;
             const double rest = a - d; // what the subtraction rounded off (Knuth's TwoSum)
             rounded += std::fabs((a - (d + rest)) + (rest - b));
             largest = std::max(largest, std::fabs(d));
@@ -45,6 +48,20 @@ differences(const std::array<const Point<D> *, N> &points, const Point<D> &origi
             if (static_cast<double>(result[n][axis]) * unit != d) return std::nullopt;
         }
     return result;
+}
+
+/// The same from one origin.
+template <int D, std::size_t N>
+auto differences(const std::array<const Point<D> *, N> &points, const Point<D> &origin, int bits) {
+    std::array<const Point<D> *, N> origins;
+    origins.fill(&origin);
+    return differences<D, N>(points, origins, bits);
+}
+
+Wide determinant(const std::array<std::array<std::int64_t, 3>, 3> &rows) {
+    const auto &[u, v, w] = rows;
+    return Wide(u[2]) * (v[0] * w[1] - v[1] * w[0]) + Wide(v[2]) * (w[0] * u[1] - w[1] * u[0]) +
+           Wide(w[2]) * (u[0] * v[1] - u[1] * v[0]);
 }
 
 /// Sign of the determinant of in_sphere(), positive inside, if integers are large enough for it.
@@ -106,13 +123,26 @@ int orientation(const Point<2> &a, const Point<2> &b, const Point<2> &c) {
 
 int orientation(const Point<3> &a, const Point<3> &b, const Point<3> &c, const Point<3> &d) {
     if (a == b || a == c || a == d || b == c || b == d || c == d) return 0;
-    if (const auto difference = differences<3, 3>({&a, &b, &c}, d, 31)) {
-        const auto [u, v, w] = *difference;
-        return -sign(Wide(u[2]) * (v[0] * w[1] - v[1] * w[0]) +
-                     Wide(v[2]) * (w[0] * u[1] - w[1] * u[0]) +
-                     Wide(w[2]) * (u[0] * v[1] - u[1] * v[0]));
-    }
+    if (const auto difference = differences<3, 3>({&a, &b, &c}, d, 31))
+        return -sign(determinant(*difference));
     return Kernel().orientation_3_object()(cgal(a), cgal(b), cgal(c), cgal(d));
+}
+
+int side_of_parallel(const Point<3> &a, const Point<3> &b, const Point<3> &c, const Point<3> &d,
+                     const Point<3> &p) {
+    // Neighbours in meshes have common points: then the plane contains three points.
+    if (p == a || p == b) return 0;
+    if (p == c || a == c || b == c) return abacus::orientation(a, b, d, p);
+    if (p == d || a == d || b == d) return -abacus::orientation(a, b, c, p);
+    const std::array<const Point<3> *, 3> ends{&b, &d, &p}, begins{&a, &c, &a};
+    if (const auto difference = differences<3, 3>(ends, begins, 31))
+        return sign(determinant(*difference));
+    LinearSystem<Rational, 3>::Matrix rows;
+    for (int i = 0; i < 3; ++i)
+        for (int axis = 0; axis < 3; ++axis)
+            rows[i][axis] = Rational((*ends[i])[axis]) - Rational((*begins[i])[axis]);
+    const Rational value = LinearSystem<Rational, 3>::determinant(rows);
+    return sign(value);
 }
 
 template <int D> int unperturbed_in_sphere(const Corners<D> &c, const Point<D> &p) {

@@ -40,6 +40,9 @@ template <int D> using Corners = std::array<const Point<D> *, D + 1>;
 namespace exact {
 int orientation(const Point<2> &a, const Point<2> &b, const Point<2> &c);
 int orientation(const Point<3> &a, const Point<3> &b, const Point<3> &c, const Point<3> &d);
+/// As side_of_parallel() below.
+int side_of_parallel(const Point<3> &a, const Point<3> &b, const Point<3> &c, const Point<3> &d,
+                     const Point<3> &p);
 /// As in_sphere() below.
 template <int D> int in_sphere(const Corners<D> &corners, const Point<D> &p);
 /// The same without perturbation: 0 on the sphere.
@@ -75,11 +78,11 @@ inline int orientation(const Point<2> &a, const Point<2> &b, const Point<2> &c) 
     return exact::orientation(a, b, c);
 }
 
-/// +1 if det(b-a, c-a, d-a) > 0, -1 if < 0, 0 if coplanar.
-inline int orientation(const Point<3> &a, const Point<3> &b, const Point<3> &c, const Point<3> &d) {
-    const double ax = a[0] - d[0], ay = a[1] - d[1], az = a[2] - d[2];
-    const double bx = b[0] - d[0], by = b[1] - d[1], bz = b[2] - d[2];
-    const double cx = c[0] - d[0], cy = c[1] - d[1], cz = c[2] - d[2];
+/// The sign of det(a, b, c), of rounded differences of points; 0 where it is not sure.
+inline int sure_volume_sign(const Point<3> &a, const Point<3> &b, const Point<3> &c) {
+    const auto [ax, ay, az] = a;
+    const auto [bx, by, bz] = b;
+    const auto [cx, cy, cz] = c;
     const double bc = bx * cy, cb = cx * by, ca = cx * ay, ac = ax * cy, ab = ax * by, ba = bx * ay;
     const double det = az * (bc - cb) + bz * (ca - ac) + cz * (ab - ba);
     const double permanent = std::fabs(az) * (std::fabs(bc) + std::fabs(cb)) +
@@ -88,10 +91,30 @@ inline int orientation(const Point<3> &a, const Point<3> &b, const Point<3> &c, 
     const double bound = 7.7716e-16 * permanent;
     const double size = std::fabs(az) + std::fabs(bz) + std::fabs(cz);
     if (permanent > 1e-250 && permanent > 1e-290 * size) [[likely]] {
-        if (det > bound) return -1;
-        if (det < -bound) return 1;
+        if (det > bound) return 1;
+        if (det < -bound) return -1;
     }
+    return 0;
+}
+
+inline Point<3> way(const Point<3> &from, const Point<3> &to) {
+    return {to[0] - from[0], to[1] - from[1], to[2] - from[2]};
+}
+
+/// +1 if det(b-a, c-a, d-a) > 0, -1 if < 0, 0 if coplanar.
+inline int orientation(const Point<3> &a, const Point<3> &b, const Point<3> &c, const Point<3> &d) {
+    const int sign = sure_volume_sign(way(d, a), way(d, b), way(d, c));
+    if (sign != 0) [[likely]]
+        return -sign;
     return exact::orientation(a, b, c, d);
+}
+
+/// On which side p lies of the plane that contains a and b, and is parallel to the line through c
+/// and d: the sign of det(b-a, d-c, p-a). Always 0 if the lines are parallel.
+inline int side_of_parallel(const Point<3> &a, const Point<3> &b, const Point<3> &c,
+                            const Point<3> &d, const Point<3> &p) {
+    const int sign = sure_volume_sign(way(a, b), way(c, d), way(a, p));
+    return sign != 0 ? sign : exact::side_of_parallel(a, b, c, d, p);
 }
 
 template <int D> inline int orientation(const Corners<D> &c) {

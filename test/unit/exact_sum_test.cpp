@@ -117,5 +117,22 @@ TEST(ExactSum, HasNoLimits) {
     EXPECT_EQ(sum_of({1, 0x1p-53, least}), 1 + 0x1p-52);
 }
 
+/// Summands far beyond the range of doubles cancel, and what is left is exact.
+TEST(WideSum, ReachesBeyondDoubles) {
+    for (const int scale : {-5440, -3000, -1, 0, 1, 3000, 5184}) {
+        WideSum sum;
+        sum.add(3, scale);
+        sum.add(0x1p1023, 5184);
+        sum.add(0x1p-1074, scale);
+        sum.add(-0x1p1023, 5184);
+        sum.add(-0.5, scale);
+        sum.add(-0x1p-1074, scale);
+        const ScaledNumber number = sum.scaled();
+        int exponent = 0;
+        EXPECT_EQ(std::frexp(number.value, &exponent), 0.625) << scale; // of 2.5
+        EXPECT_EQ(number.exponent + exponent, 2 + scale);
+    }
+}
+
 } // namespace
 } // namespace abacus::test

@@ -510,6 +510,89 @@ TEST(Volume, InSpaceIsTheSameHoweverTheMeshCameAbout) {
     }
 }
 
+// ---- Comparisons -----------------------------------------------------------------------------
+
+template <int D>
+abacus_comparison compared(MeshOf<D> &first, MeshOf<D> &second, std::size_t cache_bytes) {
+    const abacus_surface surface = surface_in({});
+    abacus_comparison comparison{};
+    EXPECT_EQ(abacus_compare(first.host.table(), &first.header.facts, &surface, second.host.table(),
+                             &second.header.facts, 0, cache_bytes, &comparison, &first.error),
+              ABACUS_OK)
+        << first.error.message << first.error.detail;
+    EXPECT_EQ(first.host.bytes + second.host.bytes, 0u);
+    EXPECT_EQ(first.host.violations, std::vector<std::string>{});
+    EXPECT_EQ(second.host.violations, std::vector<std::string>{});
+    return comparison;
+}
+
+/// Linear functions over different points of a cube: all is known.
+TEST(Comparison, OfLinearFunctionsInSpace) {
+    MeshOf<3> fine(1), coarse(1);
+    ASSERT_EQ(fine.insert(field(6000, [](const Point<3> &p) { return 2 * p[0] + p[1]; })),
+              ABACUS_OK);
+    ASSERT_EQ(coarse.insert(field(8, [](const Point<3> &p) { return p[0] + 0.5 - p[2]; })),
+              ABACUS_OK);
+    // x + y + z - 0.5 is negative in a corner of the cube, with a volume of 1/48 and a mean of
+    // -1/8.
+    const double absolute = 1 + 2 * 0.125 / 48, square = 3.0 / 12 + 1;
+    for (const std::size_t bytes : {std::size_t{60} << 10, std::size_t{64} << 20})
+        for (const bool is_turned : {false, true}) {
+            const abacus_comparison comparison =
+                is_turned ? compared<3>(coarse, fine, bytes) : compared<3>(fine, coarse, bytes);
+            const double sign = is_turned ? -1 : 1;
+            EXPECT_EQ(comparison.is_any, 1);
+            EXPECT_EQ(comparison.greatest, sign * 2.5);
+            for (const double x : comparison.place) EXPECT_EQ(x, 1);
+            EXPECT_NEAR(comparison.mean, sign, 1e-12);
+            EXPECT_NEAR(comparison.mean_absolute, absolute, 1e-12);
+            EXPECT_NEAR(comparison.rms, std::sqrt(square), 1e-12);
+        }
+}
+
+TEST(Comparison, OfTheSameInSpaceIsNothing) {
+    MeshOf<3> mesh(1);
+    ASSERT_EQ(mesh.insert(field(900, [](const Point<3> &p) { return std::sin(9 * p[0]) + p[1]; })),
+              ABACUS_OK);
+    const abacus_comparison comparison = compared<3>(mesh, mesh, std::size_t{60} << 10);
+    EXPECT_EQ(comparison.is_any, 1);
+    EXPECT_EQ(comparison.greatest, 0);
+    for (const double x : comparison.place) EXPECT_EQ(x, 0);
+    EXPECT_EQ(comparison.mean, 0);
+    EXPECT_EQ(comparison.mean_absolute, 0);
+    EXPECT_EQ(comparison.rms, 0);
+}
+
+/// A mesh with a hole counts only where it is; either may have it.
+TEST(Comparison, WithHolesInSpace) {
+    MeshOf<3> whole(1), holes(1), apart(1);
+    ASSERT_EQ(whole.insert(field(300, [](const Point<3> &) { return 0.0; })), ABACUS_OK);
+    Random random(23);
+    std::vector<Point<3>> points;
+    for (int i = 0; i < 400; ++i) points.push_back(unit_point<3>(random));
+    auto t = keeping<3>(delaunay<3>(points), [](const Point<3> &c) { return c[0] > c[1] + 0.1; });
+    for (auto &v : t.vertices) v.attributes = {v.point[0] - v.point[1]};
+    ASSERT_EQ(holes.load(t.vertices, t.simplices), ABACUS_OK) << holes.error.message;
+    std::vector<InputOf<3>> far;
+    for (auto v : t.vertices) {
+        v.point[2] += 7;
+        far.push_back(v);
+    }
+    ASSERT_EQ(apart.insert(far), ABACUS_OK);
+    const double volume = above<3>(holes, {}, 0).area;
+    EXPECT_GT(volume, 0.1);
+    EXPECT_LT(volume, 0.9);
+    const abacus_comparison there = compared<3>(holes, whole, std::size_t{60} << 10),
+                            back = compared<3>(whole, holes, std::size_t{60} << 10);
+    EXPECT_EQ(there.greatest, -back.greatest);
+    EXPECT_EQ(there.mean, -back.mean);
+    EXPECT_EQ(there.rms, back.rms);
+    EXPECT_GT(there.mean, 0.1);
+    EXPECT_GE(there.mean_absolute, there.mean);
+    EXPECT_EQ(compared<3>(apart, whole, std::size_t{60} << 10).is_any, 0);
+    EXPECT_EQ(compared<3>(apart, holes, std::size_t{60} << 10).is_any, 0);
+}
+
 // ---- What cannot be ------------------------------------------------------------------------
 
 TEST(Volume, OfNothing) {

@@ -18,7 +18,7 @@
 #define REGION_PART_COLUMNS 8
 #define REGIONS_TABLE_SUFFIX "_regions"
 #define THINNING_TYPE "abacus_thinning"
-#define THINNING_COLUMNS 7
+#define THINNING_COLUMNS 8
 #define THINNING_TABLE_SUFFIX "_thinning"
 #define STEP_VALUES_TYPE "abacus_step_values"
 #define STEP_VALUES_COLUMNS 4

@@ -6,86 +6,93 @@ namespace abacus {
 
 namespace {
 
-double integral(const Piece<2> &piece) { return measure(piece) * mean(piece); }
+template <int D> double integral(const Piece<D> &piece) { return measure(piece) * mean(piece); }
 
 /// Of the square of a linear function.
-double integral_of_square(const Piece<2> &piece) {
+template <int D> double integral_of_square(const Piece<D> &piece) {
     double sum = 0, squares = 0;
     for (const double value : piece.value) {
         sum += value;
         squares += value * value;
     }
-    return measure(piece) * ((squares + sum * sum) / 12);
+    return measure(piece) * ((squares + sum * sum) / ((D + 1) * (D + 2)));
 }
 
 /// Calls visit(piece) for pieces that make up a piece, in each of which the values have one sign.
-template <class Visit> void each_of_one_sign(const Piece<2> &piece, Visit visit) {
+template <int D, class Visit> void each_of_one_sign(const Piece<D> &piece, Visit visit) {
     const auto [least, greatest] = std::minmax_element(piece.value.begin(), piece.value.end());
     if (*least >= 0 || *greatest <= 0) return visit(piece);
-    Sides<2> turned;
-    for (int i = 0; i < 3; ++i) turned[i] = -piece.value[i];
-    clip<2>(piece, piece.value, visit);
-    clip<2>(piece, turned, visit);
+    Sides<D> turned;
+    for (int i = 0; i <= D; ++i) turned[i] = -piece.value[i];
+    clip<D>(piece, piece.value, visit);
+    clip<D>(piece, turned, visit);
 }
 
-/// Whether a triangle's orientation is certain in doubles.
-bool is_wide(const ValuedSimplex<2> &triangle) {
-    const auto seen = [&](int i) { return triangle.seen_from_first(triangle.corner[i]); };
-    return signed_area(seen(1), seen(2)).is_sure();
+ScaledNumber quotient(const ScaledNumber &a, const ScaledNumber &b) {
+    return {a.value / b.value, a.exponent - b.exponent};
+}
+double rounded(const ScaledNumber &number) { return std::ldexp(number.value, number.exponent); }
+double root(ScaledNumber number) {
+    if (number.exponent % 2 != 0) {
+        number.value *= 2;
+        --number.exponent;
+    }
+    return std::ldexp(std::sqrt(number.value), number.exponent / 2);
 }
 
 } // namespace
 
-void Comparison::look_at(double difference, const Point<2> &seen, const Point<2> &origin) {
-    if (is_any_ && std::fabs(difference) < std::fabs(greatest_)) return;
-    Point<2> place;
-    for (int axis = 0; axis < 2; ++axis) place[axis] = origin[axis] + seen[axis];
-    const bool is_greater = !is_any_ || std::fabs(difference) > std::fabs(greatest_);
-    if (!is_greater && !lexicographically_less<2>(place, place_) &&
-        !(place == place_ && difference > greatest_))
-        return;
-    is_any_ = true;
-    greatest_ = difference;
-    place_ = place;
+template <int D>
+void Comparison<D>::add(const ValuedSimplex<D> &first, const ValuedSimplex<D> &second,
+                        const Box<D> &window, const abacus_extent &extent) {
+    const Polygon *polygon = nullptr;
+    if constexpr (D == 2) polygon = polygon_of(extent);
+    greatest_.add(first.as_it_is(), second.as_it_is(), window, polygon);
+    each_common_piece(first, second, window, extent,
+                      [&](const Piece<D> &piece, const NearFrame<D> &frame) { add(piece, frame); });
 }
 
-void Comparison::add(const Piece<2> &piece, const Point<2> &origin, bool has_sure_values) {
-    const double size = measure(piece);
-    if (!(size > 0)) return;
-    size_.add(size);
-    sum_.add(integral(piece));
-    squares_.add(integral_of_square(piece));
-    each_of_one_sign(piece,
-                     [&](const Piece<2> &part) { absolute_.add(std::fabs(integral(part))); });
-    for (int i = 0; i < 3 && has_sure_values; ++i) look_at(piece.value[i], piece.corner[i], origin);
+template <int D> void Comparison<D>::add(const Piece<D> &piece, const NearFrame<D> &frame) {
+    const int sizes = frame.of_measures(), values = frame.of_values();
+    size_.add(measure(piece), sizes);
+    sum_.add(integral(piece), sizes + values);
+    squares_.add(integral_of_square(piece), sizes + 2 * values);
+    each_of_one_sign(piece, [&](const Piece<D> &part) {
+        absolute_.add(std::fabs(integral(part)), sizes + values);
+    });
 }
 
-abacus_comparison Comparison::result() const {
+template <int D> abacus_comparison Comparison<D>::result() const {
     abacus_comparison result{};
-    result.is_any = is_any_ ? 1 : 0;
-    if (!is_any_) return result;
-    const double size = size_.value();
-    result.greatest = greatest_;
-    std::copy(place_.begin(), place_.end(), result.place);
-    result.mean = sum_.value() / size;
-    result.mean_absolute = absolute_.value() / size;
-    result.rms = std::sqrt(squares_.value() / size);
+    result.is_any = greatest_.is_any() ? 1 : 0;
+    if (result.is_any == 0) return result;
+    const auto greatest = greatest_.result();
+    const ScaledNumber size = size_.scaled();
+    result.greatest = greatest.difference;
+    std::copy(greatest.place.begin(), greatest.place.end(), result.place);
+    result.mean = rounded(quotient(sum_.scaled(), size));
+    result.mean_absolute = rounded(quotient(absolute_.scaled(), size));
+    result.rms = root(quotient(squares_.scaled(), size));
     return result;
 }
 
+template <int D>
 abacus_comparison compare(const Host &host, const abacus_facts &facts,
                           const abacus_surface &surface, const OtherMesh &other) {
-    const Box<2> window = box_of<2>(surface.window);
-    Comparison comparison;
-    each_overlap(host, facts, surface, other,
-                 [&](const ValuedSimplex<2> &first, const ValuedSimplex<2> &second) {
-                     const bool is_sure = is_wide(first) && is_wide(second);
-                     each_common_piece(first, second, window, surface.extent,
-                                       [&](const Piece<2> &piece, const Point<2> &origin) {
-                                           comparison.add(piece, origin, is_sure);
-                                       });
-                 });
+    const Box<D> window = box_of<D>(surface.window);
+    Comparison<D> comparison;
+    each_overlap<D>(host, facts, surface, other,
+                    [&](const ValuedSimplex<D> &first, const ValuedSimplex<D> &second) {
+                        comparison.add(first, second, window, surface.extent);
+                    });
     return comparison.result();
 }
+
+template class Comparison<2>;
+template class Comparison<3>;
+template abacus_comparison compare<2>(const Host &, const abacus_facts &, const abacus_surface &,
+                                      const OtherMesh &);
+template abacus_comparison compare<3>(const Host &, const abacus_facts &, const abacus_surface &,
+                                      const OtherMesh &);
 
 } // namespace abacus

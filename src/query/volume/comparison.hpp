@@ -1,35 +1,36 @@
-// How two meshes in the plane differ where both have a surface: over the pieces of their overlay.
+// How two meshes differ where both have a value: over the pieces of their overlay.
 //
-// The difference is linear in each piece. So it is greatest at a corner of one, and its integrals
-// follow from its values there. Sums are exact, and of equal differences that with the
-// lexicographically least place counts; so the result does not depend on the order of the pieces.
-//
-// Over a triangle that is flat in doubles, rounding decides how the surface rises from one side to
-// the other. So its pieces have next to no part in the sums, and none in the greatest difference.
+// The difference is linear in each piece. So its integrals follow from its values at the corners;
+// sums of them are exact. The greatest difference is found in rational numbers
+// (greatest_difference.hpp). Neither depends on the order of the pieces.
 #pragma once
 
 #include "geometry/exact_sum.hpp"
+#include "geometry/greatest_difference.hpp"
 #include "query/volume/overlay.hpp"
 
 namespace abacus {
 
-class Comparison {
+template <int D> class Comparison {
 public:
-    /// A piece, whose values are differences, seen from an origin. Its corners count for the
-    /// greatest difference if `has_sure_values`.
-    void add(const Piece<2> &piece, const Point<2> &origin, bool has_sure_values);
+    /// Simplices that overlap, as far as they are in a window.
+    void add(const ValuedSimplex<D> &first, const ValuedSimplex<D> &second, const Box<D> &window,
+             const abacus_extent &extent);
     abacus_comparison result() const;
 
 private:
-    void look_at(double difference, const Point<2> &seen, const Point<2> &origin);
+    /// A piece, whose values are differences, seen in a frame.
+    void add(const Piece<D> &piece, const NearFrame<D> &frame);
 
-    bool is_any_ = false;
-    double greatest_ = 0;
-    Point<2> place_{};
-    ExactSum size_, sum_, absolute_, squares_;
+    GreatestDifference<D> greatest_;
+    WideSum size_, sum_, absolute_, squares_;
 };
 
+template <int D>
 abacus_comparison compare(const Host &host, const abacus_facts &facts,
                           const abacus_surface &surface, const OtherMesh &other);
+
+extern template class Comparison<2>;
+extern template class Comparison<3>;
 
 } // namespace abacus

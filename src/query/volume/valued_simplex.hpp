@@ -33,6 +33,7 @@ template <int D> struct ValuedSimplex {
     bool has_values() const {
         return std::all_of(value.begin(), value.end(), [](double v) { return std::isfinite(v); });
     }
+    Piece<D> as_it_is() const { return {corner, value}; }
     /// Relative to its first corner.
     Piece<D> piece() const {
         Piece<D> piece;

@@ -73,16 +73,16 @@ abacus_volume volume_between(const Host &host, const abacus_facts &facts,
                              const abacus_surface &surface, const OtherMesh &other) {
     const Box<2> window = box_of<2>(surface.window);
     Volume<2> volume;
-    each_overlap(host, facts, surface, other,
-                 [&](const ValuedSimplex<2> &first, const ValuedSimplex<2> &second) {
-                     const Piece<2> whole = first.piece();
-                     const double area = measure(whole);
-                     const double steepness = area > 0 ? surface_of(whole) / area : 1;
-                     each_common_piece(first, second, window, surface.extent,
-                                       [&](const Piece<2> &piece, const Point<2> &) {
-                                           volume.add(piece, steepness);
-                                       });
-                 });
+    each_overlap<2>(host, facts, surface, other,
+                    [&](const ValuedSimplex<2> &first, const ValuedSimplex<2> &second) {
+                        const Piece<2> whole = first.piece();
+                        const double area = measure(whole);
+                        const double steepness = area > 0 ? surface_of(whole) / area : 1;
+                        each_common_piece(first, second, window, surface.extent,
+                                          [&](const Piece<2> &piece, const NearFrame<2> &frame) {
+                                              volume.add(frame.out(piece), steepness);
+                                          });
+                    });
     return volume.sums();
 }
 

@@ -49,6 +49,9 @@ typedef struct Thinning
 	abacus_header *header;		/* of a new mesh like the source */
 	uint64		beside;			/* points of the source that are not vertices */
 	bool		has_lines;		/* the source */
+	bool		fills_holes;	/* the new mesh, as the source is not convex */
+	char	   *lost;			/* what the source has and the new mesh does not get; NULL: nothing */
+	bool		goes_on;		/* after an interrupted call */
 } Thinning;
 
 static void
@@ -79,6 +82,12 @@ check_source(const Reader *source, Oid mesh, bool keeps_lines)
 {
 	const abacus_census *census = &source->header.facts.census;
 
+	if (thinning_is_unfinished(mesh))
+		ereport(ERROR,
+				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
+				 errmsg("mesh \"%s\" is not finished", get_rel_name(mesh)),
+				 errdetail("It is being thinned by abacus_thin_build()."),
+				 errhint("CALL abacus_thin_build() again with the same arguments: it goes on from its last round.")));
 	if (census->simplices == 0)
 		ereport(ERROR,
 				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
@@ -96,6 +105,23 @@ check_source(const Reader *source, Oid mesh, bool keeps_lines)
 				 errmsg("lines of mesh \"%s\" wait for points", get_rel_name(mesh)),
 				 errhint("Insert the points that wait, with abacus_triangulate(), or leave the lines out "
 						 "with keep => 'none'.")));
+}
+
+/* What a mesh has that a thinned one does not get, in words; NULL if it has nothing of that kind. */
+static char *
+lost_of(const abacus_census *census)
+{
+	const char *const found[] = {
+		census->labelled > 0 ? "labels" : NULL, census->marked > 0 ? "markers" : NULL,
+		census->regions > 0 ? "regions" : NULL
+	};
+	char	   *text = NULL;
+
+	for (int i = lengthof(found); i-- > 0;)
+		if (found[i] != NULL)
+			text = text == NULL ? pstrdup(found[i])
+				: psprintf("%s%s%s", found[i], strchr(text, ' ') == NULL ? " and " : ", ", text);
+	return text;
 }
 
 /* The header of a new mesh like the source: its form and the names of its attributes. */
@@ -136,6 +162,8 @@ read_arguments(FunctionCallInfo fcinfo, const char *command)
 	thinning->header = header_like(&source->header);
 	thinning->has_lines = source->header.facts.census.lines > 0;
 	thinning->kept.lines = thinning->kept.lines && thinning->has_lines;
+	thinning->fills_holes = source->header.facts.standing == ABACUS_NOT_CONVEX;
+	thinning->lost = lost_of(&source->header.facts.census);
 	thinning->beside = source->header.facts.census.duplicates;
 	if (abacus_is_own(source->header.facts.standing))
 		thinning->beside += source->header.facts.census.staged - source->header.facts.census.inserted;
@@ -188,6 +216,30 @@ notice_left_out(const Thinning *thinning, uint64 without_value)
 				(errmsg_plural(UINT64_FORMAT " point of mesh \"%s\" is a duplicate or waits, and is left out",
 							   UINT64_FORMAT " points of mesh \"%s\" are duplicates or wait, and are left out",
 							   (unsigned long) thinning->beside, thinning->beside, mesh)));
+	if (thinning->lost != NULL)
+		ereport(NOTICE,
+				(errmsg("mesh \"%s\" does not get the %s of mesh \"%s\"", get_rel_name(thinning->thinner.mesh),
+						thinning->lost, mesh)));
+	if (thinning->fills_holes)
+		ereport(WARNING,
+				(errmsg("mesh \"%s\" has holes or notches, which mesh \"%s\" fills", mesh,
+						get_rel_name(thinning->thinner.mesh)),
+				 errdetail("A thinned mesh is the Delaunay triangulation of the vertices that stay, and covers their convex hull."),
+				 errhint("In functions that read the new mesh, leave out long edges with max_edge, or all outside a polygon "
+						 "with within.")));
+}
+
+/* Others may have changed the mesh between two calls: its vertices are then not those of the rounds. */
+static void
+require_untouched(const Thinning *thinning)
+{
+	const Thinner *thinner = &thinning->thinner;
+
+	if ((int64) thinner->writer.header->stamp != thinning->row.reached)
+		ereport(ERROR,
+				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
+				 errmsg("mesh \"%s\" has changed since its last round", get_rel_name(thinner->mesh)),
+				 errhint("Drop it, and thin anew.")));
 }
 
 /* All steps; returns the greatest error. */
@@ -201,6 +253,8 @@ thin(Thinning *thinning, Oid extension_namespace)
 	/* what may find bad input comes first: after an error there is no mesh */
 	thinner->holds = true;
 	thinner_begin(thinner);
+	if (thinning->goes_on)
+		require_untouched(thinning);
 	if (thinner->writer.header->facts.census.vertices == 0)
 		thinner_step(thinner, ABACUS_THIN_START);
 	kept_insert(thinner, &thinning->kept);
@@ -271,6 +325,8 @@ find_unfinished(Thinning *thinning, text *name)
 						 "those, or drop the mesh.", get_rel_name(mesh))));
 	thinning->thinner.mesh = mesh;
 	thinning->thinner.stamp = (uint64) found.stamp;
+	thinning->row.reached = found.reached;
+	thinning->goes_on = true;
 	return true;
 }
 

@@ -7,12 +7,14 @@
  */
 #include "postgres.h"
 
+#include "access/table.h"
 #include "executor/spi.h"
 #include "utils/lsyscache.h"
 
 #include "pg/base/settings.h"
 #include "pg/mesh/mesh_lines.h"
 #include "pg/sql/thin/thinner.h"
+#include "pg/sql/thin/thinning_table.h"
 
 static void
 close_handles(void *handle)
@@ -72,8 +74,12 @@ static void
 commit(Thinner *thinner)
 {
 	PageTable  *simplices = &mesh_pages(thinner->writer.host)->simplices;
+	Relation	mesh;
 
 	writer_store(&thinner->writer);
+	mesh = mesh_table_open(thinner->mesh, MESH_WRITE);
+	thinning_table_reach(mesh, (int64) thinner->writer.header->stamp);
+	table_close(mesh, NoLock);
 	SPI_commit();
 	writer_continue(&thinner->writer);
 	superseded_reclaim(simplices->superseded, simplices->heap);

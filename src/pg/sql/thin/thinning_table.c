@@ -2,13 +2,17 @@
  * thinning_table.c: the table beside a thinned mesh, which says how it was thinned.
  *
  * It has one row. Until the mesh is done, the row has no greatest error; so it shows with which
- * arguments an interrupted thinning goes on.
+ * arguments an interrupted thinning goes on, and whether the mesh is still as the last step left it.
  */
 #include "postgres.h"
 
+#include "access/relation.h"
+#include "access/tableam.h"
 #include "catalog/pg_type.h"
 #include "executor/spi.h"
 #include "utils/builtins.h"
+#include "utils/rel.h"
+#include "utils/snapmgr.h"
 
 #include "pg/mesh/lines_table.h"
 #include "pg/mesh/new_table.h"
@@ -23,7 +27,8 @@ enum
 	THINNING_MAX_ERROR,
 	THINNING_KEEP,
 	THINNING_TARGET,
-	THINNING_GREATEST
+	THINNING_GREATEST,
+	THINNING_REACHED
 };
 
 static void
@@ -98,22 +103,59 @@ thinning_table_read(Relation mesh, ThinningRow *row)
 		row->keep = text_at(THINNING_KEEP);
 		row->greatest = DatumGetFloat8(value_at(THINNING_GREATEST, &isnull));
 		row->is_done = !isnull;
+		row->reached = DatumGetInt64(value_at(THINNING_REACHED, &isnull));
 		MemoryContextSwitchTo(spi);
 	}
 	SPI_finish();
 	return is_there;
 }
 
+/*
+ * Whether abacus_thin_build() has not finished a mesh. Whoever may read the mesh may know that, so it takes
+ * no privilege on the table.
+ */
+bool
+thinning_is_unfinished(Oid mesh)
+{
+	Oid			table = mesh_find_rows_table(mesh, MESH_THINNING);
+	Relation	rel = OidIsValid(table) ? try_relation_open(table, AccessShareLock) : NULL;
+	bool		is_unfinished = false;
+	TableScanDesc scan;
+	TupleTableSlot *slot;
+
+	if (rel == NULL)
+		return false;
+	slot = table_slot_create(rel, NULL);
+	scan = table_beginscan(rel, GetActiveSnapshot(), 0, NULL);
+	while (table_scan_getnextslot(scan, ForwardScanDirection, slot))
+		is_unfinished = slot_attisnull(slot, THINNING_GREATEST);
+	table_endscan(scan);
+	ExecDropSingleTupleTableSlot(slot);
+	relation_close(rel, NoLock);
+	return is_unfinished;
+}
+
+static void
+set(Relation mesh, const char *columns, Oid type, Datum value)
+{
+	Oid			table = mesh_rows_table(mesh, MESH_THINNING, MESH_WRITE);
+
+	SPI_connect();
+	require(SPI_execute_with_args(psprintf("UPDATE %s SET %s", lines_table_name(table), columns),
+								  1, &type, &value, NULL, false, 0), SPI_OK_UPDATE);
+	SPI_finish();
+}
+
+/* A step is done, which left the mesh with this stamp. */
+void
+thinning_table_reach(Relation mesh, int64 stamp)
+{
+	set(mesh, "reached = $1", INT8OID, Int64GetDatum(stamp));
+}
+
 /* The mesh is done. */
 void
 thinning_table_finish(Relation mesh, double greatest)
 {
-	Oid			table = mesh_rows_table(mesh, MESH_THINNING, MESH_WRITE);
-	Oid			type = FLOAT8OID;
-	Datum		value = Float8GetDatum(greatest);
-
-	SPI_connect();
-	require(SPI_execute_with_args(psprintf("UPDATE %s SET greatest = $1", lines_table_name(table)),
-								  1, &type, &value, NULL, false, 0), SPI_OK_UPDATE);
-	SPI_finish();
+	set(mesh, "greatest = $1, reached = NULL", FLOAT8OID, Float8GetDatum(greatest));
 }

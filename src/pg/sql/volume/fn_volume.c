@@ -55,7 +55,7 @@ enum
 {
 	COMPARISON_GREATEST,
 	COMPARISON_PLACE,
-	COMPARISON_MEAN = COMPARISON_PLACE + 2,
+	COMPARISON_MEAN = COMPARISON_PLACE + ABACUS_MAX_DIMENSION,
 	COMPARISON_MEAN_ABSOLUTE,
 	COMPARISON_RMS,
 	COMPARISON_COLUMNS
@@ -135,13 +135,13 @@ abacus_sql_volume(PG_FUNCTION_ARGS)
 }
 
 static void
-require_plane(const Reader *reader, const char *hint)
+require_dimension(const Reader *reader, uint32 dimension, const char *hint)
 {
-	if (reader->header.facts.form.dimension != 2)
+	if (reader->header.facts.form.dimension != dimension)
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
-				 errmsg("mesh \"%s\" has dimension %u, not 2",
-						get_rel_name(mesh_pages(reader->host)->mesh), reader->header.facts.form.dimension),
+				 errmsg("mesh \"%s\" has dimension %u, not %u",
+						get_rel_name(mesh_pages(reader->host)->mesh), reader->header.facts.form.dimension, dimension),
 				 errhint("%s", hint)));
 }
 
@@ -154,17 +154,18 @@ typedef struct Between
 	uint32		other_attribute;
 } Between;
 
-/* `hint` says what to do with meshes in space. */
+/* Opens two meshes of the same dimension, or of dimension 2 if `is_plane`; `hint` says what to do with others. */
 static void
-between_open(FunctionCallInfo fcinfo, Oid other, const char *hint, Between *between)
+between_open(FunctionCallInfo fcinfo, Oid other, bool is_plane, const char *hint, Between *between)
 {
 	int			other_name = PG_ARGISNULL(OF_OTHER_ATTRIBUTE) ? OF_ATTRIBUTE : OF_OTHER_ATTRIBUTE;
 
 	memset(between, 0, sizeof(*between));
 	between->first = reader_open(PG_GETARG_OID(OF_MESH), CurrentMemoryContext);
 	between->second = reader_open(other, CurrentMemoryContext);
-	require_plane(between->first, hint);
-	require_plane(between->second, hint);
+	if (is_plane)
+		require_dimension(between->first, 2, hint);
+	require_dimension(between->second, between->first->header.facts.form.dimension, hint);
 	surface_arguments(fcinfo, between->first, &between->surface);
 	between->other_attribute = attribute(fcinfo, other_name, abacus_names_of(&between->second->header));
 	progress_begin(&between->first->host->progress, PG_GETARG_OID(OF_MESH));
@@ -194,7 +195,7 @@ volume_between(FunctionCallInfo fcinfo, Oid other)
 	abacus_volume volume;
 	Between		between;
 
-	between_open(fcinfo, other,
+	between_open(fcinfo, other, true,
 				 "In space, give abacus_volume() a base, the value that divides one mesh.", &between);
 	units_tell_volumes(&between.first->header.facts.form);
 	between_run(&between, abacus_volume_between, &volume);
@@ -258,17 +259,23 @@ abacus_sql_volume_between_named(PG_FUNCTION_ARGS)
 }
 
 static Datum
-comparison_row(FunctionCallInfo fcinfo, const abacus_comparison *comparison)
+comparison_row(FunctionCallInfo fcinfo, const abacus_comparison *comparison, uint32 dimension)
 {
 	Datum		values[COMPARISON_COLUMNS];
 	bool		isnull[COMPARISON_COLUMNS] = {false};
 
 	if (!isfinite(comparison->greatest) || !isfinite(comparison->mean) ||
 		!isfinite(comparison->mean_absolute) || !isfinite(comparison->rms))
-		float_overflow_error();
+		ereport(ERROR,
+				(errcode(ERRCODE_NUMERIC_VALUE_OUT_OF_RANGE),
+				 errmsg("a difference is out of range for type double precision"),
+				 errhint("Give the attributes smaller values, as in other units.")));
 	values[COMPARISON_GREATEST] = Float8GetDatum(comparison->greatest);
-	for (int axis = 0; axis < 2; axis++)
+	for (uint32 axis = 0; axis < ABACUS_MAX_DIMENSION; axis++)
+	{
 		values[COMPARISON_PLACE + axis] = Float8GetDatum(comparison->place[axis]);
+		isnull[COMPARISON_PLACE + axis] = axis >= dimension;
+	}
 	values[COMPARISON_MEAN] = Float8GetDatum(comparison->mean);
 	values[COMPARISON_MEAN_ABSOLUTE] = Float8GetDatum(comparison->mean_absolute);
 	values[COMPARISON_RMS] = Float8GetDatum(comparison->rms);
@@ -280,19 +287,20 @@ comparison_row(FunctionCallInfo fcinfo, const abacus_comparison *comparison)
 /*
  * abacus_compare(mesh regclass, other regclass, attribute text, lower float8[], upper float8[],
  *                max_edge float8, other_attribute text, within text)
- *     -> greatest, x, y, mean, mean_absolute, rms
+ *     -> greatest, x, y, z, mean, mean_absolute, rms
  */
 Datum
 abacus_sql_compare(PG_FUNCTION_ARGS)
 {
 	abacus_comparison comparison;
 	Between		between;
+	uint32		dimension;
 
 	if (PG_ARGISNULL(OF_MESH) || PG_ARGISNULL(OF_OTHER))
 		PG_RETURN_NULL();
-	between_open(fcinfo, PG_GETARG_OID(OF_OTHER),
-				 "In space, compare values of abacus_interpolate() at places of your choice.", &between);
+	between_open(fcinfo, PG_GETARG_OID(OF_OTHER), false, "Compare two meshes in the plane, or two in space.", &between);
+	dimension = between.first->header.facts.form.dimension;
 	between_run(&between, abacus_compare, &comparison);
 	between_close(&between);
-	PG_RETURN_DATUM(comparison_row(fcinfo, &comparison));
+	PG_RETURN_DATUM(comparison_row(fcinfo, &comparison, dimension));
 }
