@@ -168,7 +168,8 @@ class Comparison(unittest.TestCase):
         self.every_way([make("cmp_loose", loose, random.random(14)), make("cmp_coarse", coarse, random.integers(-3, 4, 8) / 4),
                         make("cmp_fine", fine, random.integers(-3, 4, 27) / 4), make("cmp_beside", beside, random.random(8)),
                         make("cmp_away", beside + 1, random.random(8))],
-                       [None, [(0.5, 1.5), (0.25, 1.75), (1.0, 2.0)]])
+                       [None])
+        self.expect(Mesh("cmp_loose", 3), Mesh("cmp_fine", 3), [(0.5, 1.5), (0.25, 1.75), (1.0, 2.0)])
 
     def test_slivers(self):
         """Nearly coplanar points, as rounded ones on a sphere or a plane are."""
@@ -190,7 +191,7 @@ class Comparison(unittest.TestCase):
 
     def test_any_order(self):
         random = numpy.random.default_rng(4)
-        for dimension, count in (2, 3000), (3, 1500):
+        for dimension, count in (2, 2000), (3, 500):
             columns = "xyz"[:dimension]
             for name in "cmp_a", "cmp_b":
                 points = random.random((count, dimension))
@@ -208,7 +209,7 @@ class Comparison(unittest.TestCase):
         for dimension in 2, 3:
             sets = [(grid(dimension, 3) + random.random((3 ** dimension, dimension)) / 4, random.random(3 ** dimension) - 0.5) for _ in range(2)]
             wanted = None
-            for place, value in (0, 0), (560, 0), (-560, 0), (0, 660), (0, -660), (1000, 1000), (-950, -900):
+            for place, value in (0, 0), (560, 660), (-560, -660), (1000, 1000), (-950, -900):
                 for name, (points, values) in zip(("cmp_a", "cmp_b"), sets):
                     abacus.triangulate(name, numpy.ldexp(points, place), height=numpy.ldexp(values, value))
                 row = call("cmp_a", "cmp_b")[0]

@@ -529,7 +529,7 @@ abacus_comparison compared(MeshOf<D> &first, MeshOf<D> &second, std::size_t cach
 /// Linear functions over different points of a cube: all is known.
 TEST(Comparison, OfLinearFunctionsInSpace) {
     MeshOf<3> fine(1), coarse(1);
-    ASSERT_EQ(fine.insert(field(6000, [](const Point<3> &p) { return 2 * p[0] + p[1]; })),
+    ASSERT_EQ(fine.insert(field(2500, [](const Point<3> &p) { return 2 * p[0] + p[1]; })),
               ABACUS_OK);
     ASSERT_EQ(coarse.insert(field(8, [](const Point<3> &p) { return p[0] + 0.5 - p[2]; })),
               ABACUS_OK);

@@ -264,12 +264,17 @@ comparison_row(FunctionCallInfo fcinfo, const abacus_comparison *comparison, uin
 	Datum		values[COMPARISON_COLUMNS];
 	bool		isnull[COMPARISON_COLUMNS] = {false};
 
-	if (!isfinite(comparison->greatest) || !isfinite(comparison->mean) ||
-		!isfinite(comparison->mean_absolute) || !isfinite(comparison->rms))
+	if (!isfinite(comparison->greatest))
 		ereport(ERROR,
 				(errcode(ERRCODE_NUMERIC_VALUE_OUT_OF_RANGE),
 				 errmsg("a difference is out of range for type double precision"),
 				 errhint("Give the attributes smaller values, as in other units.")));
+	/* means lie between differences, unless the sizes of their parts have no double */
+	if (!isfinite(comparison->mean) || !isfinite(comparison->mean_absolute) || !isfinite(comparison->rms))
+		ereport(ERROR,
+				(errcode(ERRCODE_NUMERIC_VALUE_OUT_OF_RANGE),
+				 errmsg("simplices of the two meshes differ too much in size for type double precision"),
+				 errhint("Compare meshes, or a window of them, whose simplices are of more similar size.")));
 	values[COMPARISON_GREATEST] = Float8GetDatum(comparison->greatest);
 	for (uint32 axis = 0; axis < ABACUS_MAX_DIMENSION; axis++)
 	{
