@@ -68,6 +68,14 @@ SELECT abacus_levels('thin_new', '{1}');
 SELECT count(*) FROM pg_class WHERE relname LIKE 'thin_newer%' OR relname LIKE 'thin_new_level%';
 DROP TABLE thin_new, thin_holes;
 
+SELECT abacus_triangulate('thin_parts', 'SELECT id, x, y, height FROM thin_ground');
+SELECT abacus_label('thin_parts', 'SELECT code, v0, v1, v2, 7 AS soil FROM abacus_simplices(''thin_parts'') WHERE v0 < 100');
+SELECT abacus_mark('thin_parts', 'SELECT code, v0, v1, v2, 0, 1 FROM abacus_simplices(''thin_parts'') WHERE v0 < 100') > 0 AS is_marked;
+SELECT abacus_constrain('thin_parts', 'VALUES (1, 1, 1010), (1, 2, 5040), (1, 3, 2020), (1, 4, 1010)');
+SELECT abacus_region('thin_parts', $$VALUES ('inner', 1)$$);
+SELECT abacus_thin('thin_parts', 'thin_new', 0.25) <= 0.25 AS is_within;
+DROP TABLE thin_parts, thin_new;
+
 -- vertices without a value, duplicates, and points that wait
 SELECT abacus_update('thin_mesh', 'SELECT id, x, y, NULL::float8 AS height FROM thin_ground WHERE x > 50 OR id = 3030');
 SELECT abacus_insert('thin_mesh', 'VALUES (9001, 5.0, 5.0, 1.0, 1.0)');

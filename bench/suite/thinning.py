@@ -1,4 +1,4 @@
-"""A raster of heights thinned to an error: abacus_thin beside the build of its mesh, and beside delatin, in memory."""
+"""A raster of heights thinned to an error, and compared with the whole one: abacus_thin beside the build of its mesh, and beside delatin, in memory."""
 import json
 import pathlib
 import shutil
@@ -60,6 +60,7 @@ class Thin:
             sample = abacus(f"SELECT abacus_thin('thin_raster', 'thin_new', {MAX_ERROR})")
             sample["vertices"] = int(server.query("SELECT count(*) FROM abacus_vertices('thin_new')"))
             self.report(suite, "abacus", "thinned", sample)
+            self.report(suite, "abacus", "compared", abacus("SELECT abacus_compare('thin_raster', 'thin_new')"))
             sample = delatin(folder, heights)
             if sample is None:
                 suite.say(f"  {DELATIN} is not installed")
