@@ -17,4 +17,11 @@ SELECT abacus_share_vertices('field', 2, 2);
 SELECT abacus_share_simplices('field', 2, 0, -1);
 SELECT abacus_label('field', 'SELECT code, v0, v1, v2, -1 AS debt FROM abacus_simplices(''field'')');
 SELECT abacus_partition('field', 2, 'debt');
+-- a step in place of attributes
+SELECT abacus_store('field', 7, 2, p, format('SELECT id, 10 * x FROM abacus_share_vertices(''field'', 2, %s, 0) WHERE owner = %s', p, p)) > 0 AS stored FROM generate_series(0, 1) AS p;
+SELECT abacus_interpolate('field', 3, 1, step => 7) AS of_step, id, "values" FROM abacus_interpolate('field', 'SELECT 1, 3, 1', '{1}', step => 7);
+SELECT abacus_interpolate('field', 3, 1, '2', step => 7);
+SELECT abacus_draw('field', step => 8);
+SELECT abacus_store('field', 8, 2, 0, 'SELECT id, 1 FROM abacus_share_vertices(''field'', 2, 0, 0) WHERE owner = 0') > 0 AS half;
+SELECT abacus_tile_picture('field', 0, 0, 0, world => '{0,0,4}', range => '{0,1}', step => 8);
 DROP TABLE field;

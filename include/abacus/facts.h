@@ -52,6 +52,12 @@ typedef struct abacus_columns
 	uint32_t apart;        /* whether vertices have them in pages of their own */
 	uint32_t labels;       /* number of labels, which a simplex may have, to ABACUS_MAX_LABELS */
 	uint32_t inherits;     /* 1: a new simplex gets the labels of the one that its centroid lay in */
+	/*
+	 * Never stored. 1: the values of a step are read in place of the attributes, by the ids of the
+	 * vertices (ABACUS_STEP_PAGES); the simplex pages have so many others.
+	 */
+	uint32_t by_id;
+	uint32_t in_pages;
 } abacus_columns;
 
 /* What a mesh has; an octree has leaves alone. */

@@ -20,7 +20,13 @@ enum
 	 * Attributes of vertices, if they are apart, labels of simplices, markers of facets: intervals of
 	 * keys of their own, group by group.
 	 */
-	ABACUS_ATTRIBUTE_PAGES
+	ABACUS_ATTRIBUTE_PAGES,
+	/*
+	 * Values of vertices at a step of a solution: rows of an id and so many doubles. These can only be
+	 * found, by {id as unsigned, 0}: a page has the row of this id first, and rows stored beside it.
+	 * There is none without the row.
+	 */
+	ABACUS_STEP_PAGES
 };
 
 /* Leaves of an octree: in the place of the simplices of a mesh, which an octree does not have. */

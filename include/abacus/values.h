@@ -55,6 +55,11 @@ ABACUS_API abacus_status abacus_mesh_weigh(abacus_mesh *mesh,
 										   const double *point, const abacus_weight **weights,
 										   size_t *count, abacus_error *error);
 /*
+ * The value that vertices with these weights and values give, as by abacus_mesh_interpolate(). NaN where one
+ * has none.
+ */
+ABACUS_API double abacus_weighted_mean(const abacus_weight *weights, const double *values, size_t count);
+/*
  * The gradient of the first attribute in the simplex that abacus_mesh_locate finds, `dimension`
  * doubles; NaN where a corner has no finite value. ABACUS_END outside.
  */

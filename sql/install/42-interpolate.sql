@@ -8,12 +8,13 @@ CREATE FUNCTION abacus_interpolate(
     method text DEFAULT 'linear',
     outside text DEFAULT 'null',
     max_edge double precision DEFAULT NULL,
-    within text DEFAULT NULL)
+    within text DEFAULT NULL,
+    step bigint DEFAULT NULL)
 RETURNS double precision
 AS 'MODULE_PATHNAME', 'abacus_sql_interpolate'
 LANGUAGE C STABLE PARALLEL SAFE COST 500;
-COMMENT ON FUNCTION abacus_interpolate(regclass, double precision, double precision, text, text, text, double precision, text) IS
-    'the value of an attribute at a place in the plane. The method is linear, natural or nearest. NULL outside the mesh, unless outside is nearest, and where a value is missing. within is the name of a region of the mesh, or a polygon as WKT, EWKT or hexadecimal EWKB; all else is as outside of the mesh. Units: the place and max_edge in those of the coordinates, the value in those of the attribute. Errors: 42703 no such attribute, 42702 none named where the mesh has several, 55000 none at all; 22023 an unknown method, a bad max_edge, z missing or too many, a NaN; 55000 natural in a mesh that is not Delaunay; 42704 no such region';
+COMMENT ON FUNCTION abacus_interpolate(regclass, double precision, double precision, text, text, text, double precision, text, bigint) IS
+    'the value of an attribute at a place in the plane. The method is linear, natural or nearest. NULL outside the mesh, unless outside is nearest, and where a value is missing. within is the name of a region of the mesh, or a polygon as WKT, EWKT or hexadecimal EWKB; all else is as outside of the mesh. step reads the values of a step of abacus_store, which must be whole, in place of the attributes; attribute is then the number of a value, from 1 on. Units: the place and max_edge in those of the coordinates, the value in those of the attribute. Errors: 42703 no such attribute, 42702 none named where the mesh has several, 55000 none at all; 22023 an unknown method, a bad max_edge, z missing or too many, a NaN; 55000 natural in a mesh that is not Delaunay; 42704 no such region; 42704 no such step, 55000 one that is not whole';
 
 CREATE FUNCTION abacus_interpolate(
     mesh regclass,
@@ -24,12 +25,13 @@ CREATE FUNCTION abacus_interpolate(
     method text DEFAULT 'linear',
     outside text DEFAULT 'null',
     max_edge double precision DEFAULT NULL,
-    within text DEFAULT NULL)
+    within text DEFAULT NULL,
+    step bigint DEFAULT NULL)
 RETURNS double precision
 AS 'MODULE_PATHNAME', 'abacus_sql_interpolate'
 LANGUAGE C STABLE PARALLEL SAFE COST 500;
-COMMENT ON FUNCTION abacus_interpolate(regclass, double precision, double precision, double precision, text, text, text, double precision, text) IS
-    'the value of an attribute at a place in space. The method is linear, natural or nearest. NULL outside the mesh, unless outside is nearest, and where a value is missing. within is the name of a region of the mesh, or a polygon as WKT, EWKT or hexadecimal EWKB; all else is as outside of the mesh. Units: the place and max_edge in those of the coordinates, the value in those of the attribute. Errors: 42703 no such attribute, 42702 none named where the mesh has several, 55000 none at all; 22023 an unknown method, a bad max_edge, z missing or too many, a NaN; 55000 natural in a mesh that is not Delaunay; 42704 no such region';
+COMMENT ON FUNCTION abacus_interpolate(regclass, double precision, double precision, double precision, text, text, text, double precision, text, bigint) IS
+    'the value of an attribute at a place in space. The method is linear, natural or nearest. NULL outside the mesh, unless outside is nearest, and where a value is missing. within is the name of a region of the mesh, or a polygon as WKT, EWKT or hexadecimal EWKB; all else is as outside of the mesh. step reads the values of a step of abacus_store, which must be whole, in place of the attributes; attribute is then the number of a value, from 1 on. Units: the place and max_edge in those of the coordinates, the value in those of the attribute. Errors: 42703 no such attribute, 42702 none named where the mesh has several, 55000 none at all; 22023 an unknown method, a bad max_edge, z missing or too many, a NaN; 55000 natural in a mesh that is not Delaunay; 42704 no such region; 42704 no such step, 55000 one that is not whole';
 
 CREATE FUNCTION abacus_interpolate(
     mesh regclass,
@@ -39,13 +41,14 @@ CREATE FUNCTION abacus_interpolate(
     outside text DEFAULT 'null',
     max_edge double precision DEFAULT NULL,
     within text DEFAULT NULL,
+    step bigint DEFAULT NULL,
     OUT id bigint,
     OUT "values" double precision[])
 RETURNS SETOF record
 AS 'MODULE_PATHNAME', 'abacus_sql_interpolate_places'
 LANGUAGE C VOLATILE PARALLEL UNSAFE COST 1000 ROWS 100000;
-COMMENT ON FUNCTION abacus_interpolate(regclass, text, text[], text, text, double precision, text) IS
-    'the values of attributes at the places of a query. They are those of abacus_interpolate at each place. within is the name of a region of the mesh, or a polygon as WKT, EWKT or hexadecimal EWKB; all else is as outside of the mesh. Shapes: the query returns id, x, y[, z], or id and a point of PostGIS; "values" has a value or NULL for each of attributes. Units: max_edge in those of the coordinates, "values" in those of the attributes. Errors: 22023 not a single SELECT, 42804 other columns, 22004 a NULL id or coordinate, 22023 one that is not finite; 42703 no such attribute, 42702 none named where the mesh has several, 55000 none at all; 42704 no such region';
+COMMENT ON FUNCTION abacus_interpolate(regclass, text, text[], text, text, double precision, text, bigint) IS
+    'the values of attributes at the places of a query. They are those of abacus_interpolate at each place. within is the name of a region of the mesh, or a polygon as WKT, EWKT or hexadecimal EWKB; all else is as outside of the mesh. step reads the values of a step of abacus_store, which must be whole, in place of the attributes; attribute is then the number of a value, from 1 on. Shapes: the query returns id, x, y[, z], or id and a point of PostGIS; "values" has a value or NULL for each of attributes. Units: max_edge in those of the coordinates, "values" in those of the attributes. Errors: 22023 not a single SELECT, 42804 other columns, 22004 a NULL id or coordinate, 22023 one that is not finite; 42703 no such attribute, 42702 none named where the mesh has several, 55000 none at all; 42704 no such region; 42704 no such step, 55000 one that is not whole';
 
 -- In quotes the attributes could be a coordinate, and PostgreSQL would call that ambiguous. Where there is a form
 -- with a text it takes that.
@@ -57,12 +60,13 @@ CREATE FUNCTION abacus_interpolate(
     outside text DEFAULT 'null',
     max_edge double precision DEFAULT NULL,
     within text DEFAULT NULL,
+    step bigint DEFAULT NULL,
     OUT id bigint,
     OUT "values" double precision[])
 RETURNS SETOF record
 AS 'MODULE_PATHNAME', 'abacus_sql_interpolate_places'
 LANGUAGE C VOLATILE PARALLEL UNSAFE COST 1000 ROWS 100000;
-COMMENT ON FUNCTION abacus_interpolate(regclass, text, text, text, text, double precision, text) IS
+COMMENT ON FUNCTION abacus_interpolate(regclass, text, text, text, text, double precision, text, bigint) IS
     'the same with the attributes as text, or the name of one';
 
 CREATE FUNCTION abacus_weights(

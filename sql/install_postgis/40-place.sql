@@ -37,12 +37,13 @@ CREATE FUNCTION abacus_interpolate(
     method text DEFAULT 'linear',
     outside text DEFAULT 'null',
     max_edge double precision DEFAULT NULL,
-    within text DEFAULT NULL)
+    within text DEFAULT NULL,
+    step bigint DEFAULT NULL)
 RETURNS double precision
 AS 'MODULE_PATHNAME', 'abacus_sql_interpolate_geometry'
 LANGUAGE C STABLE PARALLEL SAFE COST 500;
-COMMENT ON FUNCTION abacus_interpolate(regclass, geometry, text, text, text, double precision, text) IS
-    'the value of an attribute at a point. The method is linear, natural or nearest. NULL outside the mesh, unless outside is nearest, and where a value is missing. within is the name of a region of the mesh, or a polygon as WKT, EWKT or hexadecimal EWKB; all else is as outside of the mesh. Units: max_edge in those of the coordinates, the value in those of the attribute. Errors: 22023 another SRID, no point, or one without z in space; 42703 no such attribute, 42702 none named where the mesh has several, 55000 none at all; 42704 no such region';
+COMMENT ON FUNCTION abacus_interpolate(regclass, geometry, text, text, text, double precision, text, bigint) IS
+    'the value of an attribute at a point. The method is linear, natural or nearest. NULL outside the mesh, unless outside is nearest, and where a value is missing. within is the name of a region of the mesh, or a polygon as WKT, EWKT or hexadecimal EWKB; all else is as outside of the mesh. step reads the values of a step of abacus_store, which must be whole, in place of the attributes; attribute is then the number of a value, from 1 on. Units: max_edge in those of the coordinates, the value in those of the attribute. Errors: 22023 another SRID, no point, or one without z in space; 42703 no such attribute, 42702 none named where the mesh has several, 55000 none at all; 42704 no such region; 42704 no such step, 55000 one that is not whole';
 
 CREATE FUNCTION abacus_weights(
     mesh regclass,

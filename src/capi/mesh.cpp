@@ -1,5 +1,6 @@
 // Locating, walking and interpolating behind the C interface.
 #include "query/values/gradient.hpp"
+#include "query/values/weighted_mean.hpp"
 
 #include "capi/dispatch.hpp"
 #include "capi/handle.hpp"
@@ -57,6 +58,12 @@ abacus_status abacus_mesh_weigh(abacus_mesh *mesh, const abacus_interpolation *i
         *count = found.weights().size();
         return true;
     });
+}
+
+double abacus_weighted_mean(const abacus_weight *weights, const double *values, size_t count) {
+    return abacus::weighted_mean(
+        count, [&](std::size_t i) { return weights[i].weight; },
+        [&](std::size_t i) { return values[i]; });
 }
 
 abacus_status abacus_mesh_gradient(abacus_mesh *mesh, const abacus_interpolation *interpolation,

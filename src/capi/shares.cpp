@@ -1,6 +1,7 @@
 // A mesh cut into parts, and shares of it, behind the C interface.
 #include "query/shares/part_sizes.hpp"
 #include "query/shares/share.hpp"
+#include "sort/pacer.hpp"
 
 #include "capi/dispatch.hpp"
 #include "capi/mesh.hpp"
@@ -69,6 +70,7 @@ abacus_status abacus_mesh_parts(abacus_mesh *mesh, const abacus_cut *cut, size_t
         if (facts.census.simplices > 0)
             return part_sizes<D>(mesh->host, facts, cut_of<D>(*mesh, facts, *cut), memory, visit);
         for (std::uint32_t part = 0; part < cut->parts; ++part) {
+            if (part % Pacer::stride == 0) mesh->host.poll();
             abacus_part none{};
             none.part = part;
             visit(none);

@@ -46,14 +46,15 @@ public:
         to[0] = std::bit_cast<std::uint64_t>(page().id(vertex));
         std::memcpy(to + 1, &page().point(vertex), sizeof(Point<D>));
         std::memcpy(to + 1 + D, &value, sizeof value);
-        if (!all_.are_apart()) all_.all(page(), vertex, reinterpret_cast<double *>(to + 1 + D + 1));
+        if (!all_.are_elsewhere())
+            all_.all(page(), vertex, reinterpret_cast<double *>(to + 1 + D + 1));
     }
     /// All attributes of a vertex that was put.
     void attributes_of(const std::uint64_t *vertex, double *to) const {
-        if (!all_.are_apart())
+        if (!all_.are_elsewhere())
             std::memcpy(to, vertex + 1 + D + 1, all_.count() * sizeof *to);
         else
-            all_.all_at(vertex_point<D>(vertex), to);
+            all_.all_of(static_cast<std::int64_t>(vertex[0]), vertex_point<D>(vertex), to);
     }
 
 private:

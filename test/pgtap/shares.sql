@@ -11,6 +11,11 @@ SELECT isnt(abacus_triangulate('small', 'VALUES (1, 0, 0), (2, 4, 0), (3, 4, 4),
 SELECT results_eq($$ SELECT sum(simplices)::bigint, max(simplices), count(*) FROM abacus_partition('small', 100000) $$, $$ VALUES (4::bigint, 1::bigint, 100000::bigint) $$, 'many parts');
 SELECT is_empty($$ SELECT * FROM abacus_share_simplices('small', 100000, 0, 3) UNION ALL SELECT * FROM abacus_share_simplices('small', 100000, 99999, 3) $$, 'an empty share');
 
+SELECT is_empty($$ SELECT * FROM abacus_share_vertices('small', 2147483647, 2147483646, 1000000) $$, 'as many as there can be');
+-- a layer that adds nothing is the last one
+SELECT set_eq($$ SELECT code, owner FROM abacus_share_simplices('space', 7, 3, 2147483647) $$, $$ SELECT s.code, s.owner FROM generate_series(0, 6) AS p, abacus_share_simplices('space', 7, p, 0) AS s $$, 'a halo without end');
+SELECT is((SELECT count(*) FROM abacus_share_vertices('space', 7, 3, 1000000)), 500::bigint, 'has all vertices');
+
 -- weights: each part's sum is the mean, to half a simplex at each end
 CREATE FUNCTION pg_temp.far(mesh regclass, parts int, weight text, number int) RETURNS TABLE (part int, far float8) LANGUAGE sql AS $$
     WITH w AS (SELECT s.owner, (SELECT sum(coalesce(n.attributes[number], 0)) FROM abacus_share_vertices(mesh, parts, p, 0, weight) AS n WHERE n.local IN (v0, v1, v2, v3)) / CASE WHEN v3 IS NULL THEN 3 ELSE 4 END AS w
@@ -72,5 +77,11 @@ SELECT throws_ok($$ SELECT abacus_partition('points', 4) $$, '42809', NULL, 'not
 SELECT isnt(abacus_label('small', 'SELECT code, v0, v1, v2, -1 AS debt FROM abacus_simplices(''small'')'), NULL, 'less than nothing');
 SELECT throws_like($$ SELECT abacus_partition('small', 2, 'debt') $$, 'the simplex (%) has the weight (-1)', 'a negative weight');
 SELECT isnt_empty($$ SELECT abacus_partition('small', 2) $$, 'the mesh is as it was');
+-- the sign of a mean is exact: thirds of 1, 2 and -3 do not sum to 0 as doubles
+SELECT isnt(abacus_triangulate('signs', 'VALUES (1, 0, 0, 1, 1e308, 1e-300, ''Infinity''::float8), (2, 1, 0, 2, 1e308, -1e300, 1), (3, 0, 1, -3, 1e308, 1e300, 1)', '{zero,huge,little,infinite}', dimension => 2), NULL, 'a triangle');
+SELECT is((SELECT sum(simplices)::bigint FROM abacus_partition('signs', 2, weight)), 1::bigint, weight) FROM unnest('{zero,huge,little}'::text[]) AS weight;
+SELECT throws_like($$ SELECT abacus_partition('signs', 2, 'infinite') $$, 'the simplex (1, 2, 3) has the weight (%)', 'an infinite weight');
+SELECT is(abacus_update('signs', 'SELECT id, x, y, zero, little FROM (VALUES (3, 0, 1, -3.0000000000000004::float8, -1e300::float8), (2, 1, 0, 2, 1e300), (1, 0, 0, 1, -1e-300)) AS v (id, x, y, zero, little)'), 3::bigint, 'a little less');
+SELECT throws_like(format('SELECT abacus_partition(''signs'', 2, %L)', weight), 'the simplex (1, 2, 3) has the weight (-%)', weight) FROM unnest('{zero,little}'::text[]) AS weight;
 SELECT * FROM finish();
 ROLLBACK;

@@ -17,8 +17,8 @@ SELECT is((SELECT sum(pg_temp.store('plane', 1, 3, p))::bigint FROM generate_ser
 SELECT results_eq($$ SELECT * FROM abacus_steps('plane') $$, $$ VALUES (1::bigint, 3, 3, 500::bigint, true) $$, 'whole');
 SELECT set_eq($$ SELECT id, "values"[1] AS u, "values"[2] AS w FROM plane_steps WHERE step = 1 AND id IS NOT NULL $$, $$ SELECT id, 2 * x + y AS u, CASE WHEN x > 0.1 THEN x END AS w FROM points $$, 'all values');
 -- again, in place of the former
-SELECT is(abacus_store('plane', 1, 3, 1, 'SELECT id, -1 FROM pg_temp.own(''plane'', 3, 1)'), (SELECT vertices FROM abacus_partition('plane', 3) WHERE part = 1), 'a part once more');
-SELECT is((SELECT count(*) FROM plane_steps WHERE "values" = '{-1}'), (SELECT vertices FROM abacus_partition('plane', 3) WHERE part = 1), 'its new values');
+SELECT is(abacus_store('plane', 1, 3, 1, 'SELECT id, -1, -2 FROM pg_temp.own(''plane'', 3, 1)'), (SELECT vertices FROM abacus_partition('plane', 3) WHERE part = 1), 'a part once more');
+SELECT is((SELECT count(*) FROM plane_steps WHERE "values" = '{-1,-2}'), (SELECT vertices FROM abacus_partition('plane', 3) WHERE part = 1), 'its new values');
 SELECT is((SELECT count(*) FROM plane_steps), 503::bigint, 'nothing else');
 SELECT is((SELECT sum(pg_temp.store('plane', step, 2, p, 'z'))::bigint FROM unnest('{-7,9223372036854775807}'::bigint[]) AS step, generate_series(0, 1) AS p), 1000::bigint, 'steps with any number, by weight');
 SELECT is((SELECT count(*) FROM abacus_steps('plane') WHERE whole), 3::bigint, 'all whole');
@@ -47,6 +47,36 @@ SELECT throws_ok($$ SELECT abacus_store('points', 1, 3, 0, 'SELECT 1') $$, '4280
 SELECT throws_ok($$ SELECT abacus_store('plane', 8, 3, 0, 'SELECT 1, 2') $$, '22023', NULL, 'a step that fails');
 SELECT set_eq('TABLE before', 'TABLE plane_steps', 'nothing is stored');
 SELECT hasnt_table('plane_steps_8');
+-- a query that changes the mesh
+CREATE FUNCTION pg_temp.grow(mesh regclass, place int) RETURNS int LANGUAGE sql VOLATILE AS $$ SELECT abacus_insert(mesh, format('SELECT %s, 0.5, %s / 1000.0, 0', place, place))::int $$;
+SELECT throws_ok($$ SELECT abacus_store('plane', 1, 3, 0, 'SELECT id, CASE row_number() OVER () WHEN 1 THEN pg_temp.grow(''plane'', 701) END FROM pg_temp.own(''plane'', 3, 0)') $$, '55000', 'the statement that stores values also changes mesh "plane"', 'changes the mesh');
+SELECT throws_ok($$ SELECT pg_temp.grow('plane', 702), pg_temp.store('plane', 1, 3, 0) $$, '55000', 'the statement that stores values also changes mesh "plane"', 'so does another part of the statement');
+SELECT is((SELECT count(*) FROM abacus_vertices('plane')), 500::bigint, 'the mesh is as it was');
+SELECT set_eq('TABLE before', 'TABLE plane_steps', 'and its steps');
+-- infinities are kept, NaN is NULL
+SELECT is(abacus_store('plane', 5, 1, 0, 'SELECT id, ''Infinity''::float8, ''-Infinity''::float8, ''NaN''::float8 FROM points'), 500::bigint, 'values that are no numbers');
+SELECT set_eq('SELECT "values" FROM plane_steps WHERE step = 5 AND id IS NOT NULL', $$ VALUES (ARRAY['Infinity', '-Infinity', NULL]::float8[]) $$, 'as they are stored');
+DELETE FROM plane_steps WHERE step = 5;
+-- names that are too long
+SELECT isnt(abacus_triangulate(repeat('n', 52), 'SELECT id, x, y FROM points'), NULL, 'a long name');
+PREPARE store_long(bigint) AS SELECT abacus_store(repeat('n', 52)::regclass, $1, 1, 0, 'SELECT id FROM points');
+SELECT is((SELECT count(*) FROM pg_class WHERE relname LIKE 'nnn%steps%'), 0::bigint, 'has no steps');
+CREATE FUNCTION pg_temp.hint_of(statement text) RETURNS text LANGUAGE plpgsql AS $$
+DECLARE
+    state text;
+    hint text;
+BEGIN
+    EXECUTE statement;
+    RETURN 'none';
+EXCEPTION WHEN name_too_long THEN
+    GET STACKED DIAGNOSTICS hint = PG_EXCEPTION_HINT, state = MESSAGE_TEXT;
+    RETURN state || ' ' || hint;
+END $$;
+SELECT is(pg_temp.hint_of('EXECUTE store_long(-12345678)'), format('name of mesh "%s" is too long for step -12345678 Rename the mesh.', repeat('n', 52)), 'the first step has no table yet');
+SELECT is(pg_temp.hint_of('EXECUTE store_long(1)'), 'none', 'a shorter number');
+SELECT is(pg_temp.hint_of('EXECUTE store_long(12345678)'), format('name of table "%s_steps" is too long for step 12345678 Rename the table, which stays that of the mesh.', repeat('n', 52)), 'from then on the table decides');
+SELECT lives_ok(format('ALTER TABLE %s_steps RENAME TO short', repeat('n', 52)), 'renamed');
+SELECT is(pg_temp.hint_of('EXECUTE store_long(12345678)'), 'none', 'as the hint says');
 -- vertices with one id
 SELECT isnt(abacus_triangulate('twins', 'VALUES (1, 0, 0), (1, 4, 0), (2, 4, 4), (3, 0, 4)'), NULL, 'two vertices have one id');
 SELECT throws_ok($$ SELECT abacus_store('twins', 1, 1, 0, 'VALUES (1, 5), (2, 5), (3, 5)') $$, '23505', 'two vertices of the part have the id 1', 'which names none');

@@ -56,6 +56,8 @@ MemoryHost::Pages &MemoryHost::pages_of(abacus_page_kind kind) {
         return repeated_pages;
     case ABACUS_ATTRIBUTE_PAGES:
         return attribute_pages;
+    case ABACUS_STEP_PAGES:
+        return step_pages;
     }
     return pages;
 }

@@ -92,6 +92,7 @@ public:
     Pages staged_pages;
     Pages repeated_pages;
     Pages attribute_pages;
+    Pages step_pages; ///< of one row each
     std::set<Spool *> spools;
 
     // The events so far.

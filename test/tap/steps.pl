@@ -34,6 +34,33 @@ unlike($err, qr/error|abort|warning/i, 'no session fails');
 is($node->safe_psql('postgres', 'SELECT count(DISTINCT "values"[1]) FROM mesh_steps WHERE step = 1 AND part = 5 AND id IS NOT NULL'), 1, 'the values of one');
 is($node->safe_psql('postgres', q{SELECT * FROM abacus_steps('mesh') WHERE step = 1}), '1|8|8|100000|t', 'the step is whole');
 
+# A second session draws the last whole step and reads values of it while the ranks compute: never a step that is not whole.
+my $ranks = $node->basedir . '/ranks.sql';
+append_to_file($ranks, join("\n", map { "SELECT store($_, 4, :client_id, $_);" } 10 .. 15));
+my $watch = $node->basedir . '/watch.sql';
+append_to_file($watch, <<'SQL');
+WITH last AS MATERIALIZED (SELECT max(step) AS step FROM abacus_steps('mesh') WHERE whole)
+SELECT 1 / (count(*) FILTER (WHERE "values"[1] = step) = 100)::int FROM last, abacus_interpolate('mesh', 'SELECT i, i / 101.0, 0.5 FROM generate_series(1, 100) AS i', step => last.step);
+SELECT 1 / (length(abacus_draw('mesh', 100, attribute => '1', edges => false, step => (SELECT max(step) FROM abacus_steps('mesh') WHERE whole))) > 0)::int;
+SQL
+my ($watched, $seen) = ('', '');
+my $watching = IPC::Run::start([ 'pgbench', '-n', '-t', 8, '-f', $watch, $node->connstr('postgres') ], '<', \undef, '>', \$seen, '2>', \$watched);
+($out, $err) = run_command([ 'pgbench', '-n', '-t', 1, '-c', 4, '-j', 2, '-f', $ranks, $node->connstr('postgres') ]);
+$watching->finish;
+unlike($err . $watched, qr/error|abort|warning/i, 'ranks and the watching session do not fail');
+like($seen, qr{processed: 8/8}, 'it has drawn all its pictures');
+
+# What a transaction sees of a step stays as it is, though a rank stores its part again.
+my $reader = $node->background_psql('postgres');
+my $value = q{SELECT abacus_interpolate('mesh', 0.3, 0.4, '1', step => 15), "values"[1] FROM abacus_interpolate('mesh', 'SELECT 1, 0.3, 0.4', step => 15)};
+$reader->query_safe('BEGIN ISOLATION LEVEL REPEATABLE READ');
+is($reader->query_safe($value), '15|15', 'a value');
+$node->safe_psql('postgres', join(';', map { "SELECT store(15, 4, $_, 99)" } 0 .. 3));
+is($reader->query_safe($value), '15|15', 'the same in the transaction');
+$reader->query_safe('COMMIT');
+is($reader->query_safe($value), '99|99', 'the new one after it');
+$reader->quit;
+
 # Killed in the middle: whole parts or none, old or new. Then the rank runs again.
 my $in_time = 0;
 for my $round (1 .. $kills)

@@ -36,6 +36,9 @@ typedef struct HostPageFunctions
 	void		(*release) (void *owner);	/* relations, scans, pins; more than once does no harm */
 } HostPageFunctions;
 
+/* Of a kind that has no pages: each fails but the last two. For kinds that need only some of them. */
+extern const HostPageFunctions host_no_pages;
+
 typedef struct HostPageKind
 {
 	const HostPageFunctions *functions;

@@ -55,7 +55,7 @@ release_nothing(void *owner)
 {
 }
 
-static const HostPageFunctions nowhere = {
+const HostPageFunctions host_no_pages = {
 	find_nowhere, fetch_nowhere, next_nowhere, put_nowhere, erase_nowhere, doubt_nothing,
 	release_nothing
 };
@@ -127,7 +127,7 @@ void
 host_pages_init(Host *host)
 {
 	for (int kind = 0; kind < ABACUS_MAX_PAGE_KINDS; kind++)
-		host_register_pages(host, kind, &nowhere, NULL);
+		host_register_pages(host, kind, &host_no_pages, NULL);
 	host->table.find = host_find;
 	host->table.fetch = host_fetch;
 	host->table.next = host_next;

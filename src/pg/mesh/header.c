@@ -328,6 +328,13 @@ list_names(abacus_names names, uint32 first, uint32 count)
 	return list.data;
 }
 
+/* What has the attributes, for messages. */
+static const char *
+holder(const abacus_facts *facts)
+{
+	return facts->columns.by_id ? "step" : type_name(facts->form.type);
+}
+
 /* Number of the attribute with this name, which must exist. */
 int
 header_find_attribute(abacus_names names, const char *name)
@@ -338,7 +345,7 @@ header_find_attribute(abacus_names names, const char *name)
 	if (number < 0)
 		ereport(ERROR,
 				(errcode(ERRCODE_UNDEFINED_COLUMN),
-				 errmsg("%s has no attribute \"%s\"", type_name(names.facts->form.type), name),
+				 errmsg("%s has no attribute \"%s\"", holder(names.facts), name),
 				 columns->attributes == 0 ? errdetail("It has no attributes.")
 				 : errdetail("Its attributes are %s.", list_names(names, 0, columns->attributes))));
 	return number;
@@ -368,7 +375,8 @@ header_require_attributes(const abacus_facts *facts)
 	if (facts->columns.attributes == 0)
 		ereport(ERROR,
 				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
-				 errmsg("%s has no attributes", type_name(facts->form.type)),
+				 errmsg("%s has no attributes", holder(facts)),
+				 facts->columns.by_id ? errhint("Give values to abacus_store(), as columns after the id.") :
 				 facts->form.type == ABACUS_OCTREE ? errhint("Name them in abacus_octree_create().")
 				 : errhint("Add attributes as columns after the coordinates in the query of "
 						   "abacus_triangulate().")));
@@ -385,7 +393,7 @@ header_only_attribute(abacus_names names)
 		ereport(ERROR,
 				(errcode(ERRCODE_AMBIGUOUS_COLUMN),
 				 errmsg("%s has %u attributes, and none is named",
-						type_name(names.facts->form.type), columns->attributes),
+						holder(names.facts), columns->attributes),
 				 errdetail("Its attributes are %s.", list_names(names, 0, columns->attributes)),
 				 errhint("Name one with the argument attribute.")));
 	return 0;

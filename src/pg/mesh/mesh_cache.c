@@ -25,25 +25,11 @@
 #include "utils/snapmgr.h"
 
 #include "pg/base/settings.h"
+#include "pg/base/snapshot_mark.h"
 #include "pg/mesh/mesh_cache.h"
 #include "pg/port/port.h"
 
 #define MESHES_KEPT 4
-
-/* Decides which changes of others, and of our own commands, a snapshot sees. */
-typedef struct SnapshotMark
-{
-	bool		set;
-	TransactionId xmin;
-	TransactionId xmax;
-	CommandId	curcid;
-	bool		suboverflowed;
-	bool		taken_during_recovery;
-	uint32		xcnt;
-	int32		subxcnt;
-	uint32		room;			/* of xids, which holds xip and then subxip */
-	TransactionId *xids;
-} SnapshotMark;
 
 typedef struct Entry
 {
@@ -60,57 +46,6 @@ typedef struct Entry
 
 static Entry entries[MESHES_KEPT];
 static uint64 uses = 0;
-
-/*
- * memcmp() of no bytes is not free: a snapshot without transactions has no array, and
- * vector instructions at NULL that read nothing take as long as some hundred others.
- */
-static inline bool
-same_xids(const TransactionId *a, const TransactionId *b, uint32 count)
-{
-	return count == 0 || memcmp(a, b, count * sizeof(TransactionId)) == 0;
-}
-
-static bool
-same_snapshot(const SnapshotMark *mark, const SnapshotData *snapshot)
-{
-	return mark->set && mark->curcid == snapshot->curcid && mark->xmin == snapshot->xmin &&
-		mark->xmax == snapshot->xmax && mark->xcnt == snapshot->xcnt &&
-		mark->subxcnt == snapshot->subxcnt && mark->suboverflowed == snapshot->suboverflowed &&
-		mark->taken_during_recovery == snapshot->takenDuringRecovery &&
-		same_xids(mark->xids, snapshot->xip, mark->xcnt) &&
-		same_xids(mark->xids + mark->xcnt, snapshot->subxip, mark->subxcnt);
-}
-
-static void
-mark_snapshot(SnapshotMark *mark, const SnapshotData *snapshot)
-{
-	uint32		needed = snapshot->xcnt + snapshot->subxcnt;
-
-	mark->set = false;
-	if (needed > mark->room || mark->xids == NULL)
-	{
-		if (mark->xids != NULL)
-			pfree(mark->xids);
-		mark->xids = NULL;
-		mark->room = 0;
-		mark->xids = MemoryContextAlloc(TopMemoryContext, (needed + 16) * sizeof(TransactionId));
-		mark->room = needed + 16;
-	}
-	mark->xmin = snapshot->xmin;
-	mark->xmax = snapshot->xmax;
-	mark->curcid = snapshot->curcid;
-	mark->suboverflowed = snapshot->suboverflowed;
-	mark->taken_during_recovery = snapshot->takenDuringRecovery;
-	mark->xcnt = snapshot->xcnt;
-	mark->subxcnt = snapshot->subxcnt;
-	if (snapshot->xcnt > 0)
-		memcpy(mark->xids, snapshot->xip, snapshot->xcnt * sizeof(TransactionId));
-	if (snapshot->subxcnt > 0)
-		memcpy(mark->xids + snapshot->xcnt, snapshot->subxip,
-			   snapshot->subxcnt * sizeof(TransactionId));
-	mark->set = true;
-}
 
 static void
 drop(Entry *entry)
@@ -238,7 +173,7 @@ validate(Oid relid, Entry *entry, uint32 type)
 	host->busy = false;
 	table_close(rel, NoLock);
 	/* there may be no memory for it: last, when nothing is open any more */
-	mark_snapshot(&entry->valid, GetActiveSnapshot());
+	mark_snapshot(&entry->valid, GetActiveSnapshot(), TopMemoryContext);
 	return entry;
 }
 

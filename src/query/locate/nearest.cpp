@@ -77,8 +77,10 @@ template <int D> void Nearest<D>::offer(Handle simplex, VertexIndex vertex) {
         records_.extend(words_);
     }
     const VertexHeap<D> &heap = cache_.vertices();
-    fill_record<D>(records_.data() + place->slot * words_, heap.id(vertex), point,
-                   heap.attributes(vertex), static_cast<std::size_t>(heap.attribute_count()));
+    fill_record<D>(
+        records_.data() + place->slot * words_, heap.id(vertex), point, heap.attributes(vertex),
+        reader_.vertex_values().are_elsewhere() ? 0
+                                                : static_cast<std::size_t>(heap.attribute_count()));
 }
 
 // ---- Delaunay meshes -------------------------------------------------------------------

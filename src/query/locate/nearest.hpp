@@ -53,8 +53,8 @@ public:
         search(p, k);
         for (const Candidate &candidate : candidates_) {
             std::uint64_t *const words = records_.data() + candidate.slot * words_;
-            if (reader_.vertex_values().are_apart())
-                reader_.vertex_values().all_at(candidate.point,
+            if (reader_.vertex_values().are_elsewhere())
+                reader_.vertex_values().all_of(candidate.id, candidate.point,
                                                reinterpret_cast<double *>(words + 1 + D));
             visit(static_cast<const std::uint64_t *>(words));
         }

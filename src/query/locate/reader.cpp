@@ -13,13 +13,14 @@ namespace abacus {
 
 namespace {
 
-/// The share of the memory for attributes that are apart.
+/// The share of the memory for attributes that are elsewhere than in the simplex pages.
 constexpr std::size_t attributes_share = 8;
 
 CacheOptions linked_as(const abacus_facts &facts, CacheOptions options) {
     options.linked_ghosts = abacus_links_ghosts(facts.standing);
     options.split_nodes = facts.census.split > 0;
-    if (facts.columns.apart != 0) options.budget -= options.budget / attributes_share;
+    if (facts.columns.apart != 0 || facts.columns.by_id != 0)
+        options.budget -= options.budget / attributes_share;
     return options;
 }
 

@@ -52,7 +52,8 @@ void describe(const PageView<D> &page, int simplex, const Domain<D> &domain,
     const auto &order = describe(page, simplex, domain, description);
     for (int i = 0; values != nullptr && i < D + !page.is_ghost(simplex); ++i)
         values->set(i, [&](int attribute) {
-            return vertex_values.value(page, page.corner(simplex, order[i]), attribute);
+            const int vertex = page.corner(simplex, order[i]);
+            return vertex_values.value(page, vertex, description.id[i], attribute);
         });
 }
 

@@ -17,7 +17,7 @@ namespace {
 template <int D>
 typename RangeScan<D>::Wants pages_with(const std::optional<abacus_range> &range,
                                         const VertexValues<D> &values) {
-    if (!range || values.are_apart()) return {}; // their pages do not know the values
+    if (!range || values.are_elsewhere()) return {}; // their pages do not know the values
     return [range = *range](const PageView<D> &page) {
         return page.may_have_attribute(static_cast<int>(range.attribute), range.least,
                                        range.greatest);

@@ -38,13 +38,13 @@ NumberedVertices<D>::NumberedVertices(const Host &host, const abacus_facts &fact
     name_vertices<D>(host, facts, [&](const PageView<D> &page, int v) {
         std::uint64_t *const name = named_.add(), *rest = name + 1 + D;
         *rest++ = static_cast<std::uint64_t>(page.id(v)) ^ id_sign;
-        if (!vertex_values_.are_apart())
+        if (!vertex_values_.are_elsewhere())
             vertex_values_.all(page, v, reinterpret_cast<double *>(rest));
         return name;
     });
     named_.finish();
     current_.resize(1 + D + 1 + static_cast<unsigned>(page_attributes(facts.columns)));
-    if (vertex_values_.are_apart()) apart_.resize(facts.columns.attributes);
+    if (vertex_values_.are_elsewhere()) apart_.resize(facts.columns.attributes);
     ahead_ = named_.next();
 }
 
@@ -64,10 +64,10 @@ template <int D> bool NumberedVertices<D>::next(abacus_vertex &vertex) {
     const std::uint64_t *const rest = current_.data() + 1 + D;
     vertex.id = vertex.vertex = static_cast<std::int64_t>(rest[0] ^ id_sign);
     vertex.attributes = reinterpret_cast<const double *>(rest + 1);
-    if (vertex_values_.are_apart()) {
+    if (vertex_values_.are_elsewhere()) {
         Point<D> p;
         std::copy_n(vertex.point, D, p.begin());
-        vertex_values_.all_at(p, apart_.data());
+        vertex_values_.all_of(vertex.id, p, apart_.data());
         vertex.attributes = apart_.data();
     }
     return true;

@@ -87,10 +87,10 @@ template <int D> bool VertexScan<D>::next_listed(abacus_vertex &vertex) {
     if (!waiting_.advance()) return false;
     fill<D>(vertex, waiting_.record());
     vertex.vertex = vertex.id;
-    if (mesh_.vertex_values().are_apart()) {
+    if (mesh_.vertex_values().are_elsewhere()) {
         records_.resize(attributes_);
         auto *const values = reinterpret_cast<double *>(records_.data());
-        mesh_.vertex_values().all_at(waiting_.point(), values);
+        mesh_.vertex_values().all_of(vertex.id, waiting_.point(), values);
         vertex.attributes = values;
     }
     return true;

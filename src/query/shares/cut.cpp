@@ -22,20 +22,23 @@ struct PageSum {
 };
 static_assert(std::is_trivially_copyable_v<PageSum> && sizeof(PageSum) % 8 == 0);
 
-// How far along the curve one is, and which part the next simplex belongs to. reaches(part,
-// weight): whether the middle of the next simplex, of this weight, is not before a part's begin.
-// has_reached(part): whether the place before it is not; then no simplex before it reaches more.
+// How far along the curve one is, and which part the next simplex belongs to. A weight is a sum of
+// doubles. reaches(part, weight): whether the middle of the next simplex is not before a part's
+// begin. has_reached(part): whether the place before it is not; then no simplex before it reaches
+// more.
+
+using Weight = std::span<const double>;
 
 /// By numbers of simplices.
 class Counted {
 public:
     Counted(std::uint32_t parts, std::uint64_t all) : parts_(parts), all_(all) {}
 
-    bool reaches(std::uint32_t part, double) const {
+    bool reaches(std::uint32_t part, Weight) const {
         return (2 * before_ + 1) * parts_ >= Wide{2} * all_ * part;
     }
     bool has_reached(std::uint32_t part) const { return before_ * parts_ >= Wide{all_} * part; }
-    void pass(double) { ++before_; }
+    void pass(Weight) { ++before_; }
     void pass_page(const PageSum &page) { before_ += page.simplices; }
 
 private:
@@ -52,14 +55,16 @@ public:
         twice_all_.add(all);
     }
 
-    bool reaches(std::uint32_t part, double weight) const {
+    bool reaches(std::uint32_t part, Weight weight) const {
         ExactSum middle = before_;
         middle.add(before_);
-        middle.add(weight);
+        for (const double term : weight) middle.add(term);
         return !(middle.times(parts_) < twice_all_.times(part));
     }
-    bool has_reached(std::uint32_t part) const { return reaches(part, 0); }
-    void pass(double weight) { before_.add(weight); }
+    bool has_reached(std::uint32_t part) const { return reaches(part, {}); }
+    void pass(Weight weight) {
+        for (const double term : weight) before_.add(term);
+    }
     void pass_page(const PageSum &page) { before_.add(page.weights); }
 
 private:
@@ -86,7 +91,8 @@ Cut<D>::Cut(const Host &host, const abacus_facts &facts, const abacus_cut &cut)
         for (int s = 0; s < page.simplices(); ++s) {
             if (page.is_ghost(s)) continue;
             ++sum.simplices;
-            if (is_weighed) sum.weights.add(weight_->of(s));
+            if (is_weighed)
+                for (const double term : weight_->of(s)) sum.weights.add(term);
         }
         std::memcpy(spool.add(), &sum, words * sizeof(std::uint64_t));
         weights.add(sum.weights);
@@ -141,7 +147,7 @@ void Cut<D>::cut_page(const Key &key, std::uint64_t before, Course course) {
     std::sort(placed_.begin(), placed_.end(),
               [](const Placed &a, const Placed &b) { return a.place < b.place; });
     for (const Placed &placed : placed_) {
-        const double weight = weight_->of(placed.simplex);
+        const Weight weight = weight_->of(placed.simplex);
         const std::uint32_t next = pieces_.empty() ? 0 : pieces_.back().part + 1;
         if (next < cut_.parts && (next == 0 || course.reaches(next, weight))) {
             std::uint32_t part = next, above = cut_.parts; // the greatest that it reaches

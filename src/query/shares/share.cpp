@@ -16,8 +16,8 @@ Share<D>::Share(const Host &host, const abacus_facts &facts, const Cut<D> &cut, 
     known_.add_all(reached_);
     for (;; ++layer_) {
         reach();
-        join();
-        if (layer_ == halo) break;
+        const bool is_larger = join();
+        if (layer_ == halo || !is_larger) break;
         former_ = is_in; // of the answers so far, for the next layer
     }
     former_ = was_in;
@@ -70,7 +70,7 @@ template <int D> void Share<D>::reach() {
     });
 }
 
-template <int D> void Share<D>::join() {
+template <int D> bool Share<D>::join() {
     VertexGroups<D> groups(host_, facts_, memory_ / 2);
     std::uint64_t place = 0;
     place_ = 0;
@@ -99,6 +99,7 @@ template <int D> void Share<D>::join() {
     if (answers_) answers_->close();
     answers_.emplace(host_, 2, memory_ / 4);
     std::uint64_t done = 0;
+    bool is_larger = false;
     for (;;) {
         const auto &group = groups.next();
         if (group.empty()) break;
@@ -109,6 +110,7 @@ template <int D> void Share<D>::join() {
             least = std::min(least, word.word >> piece_shift);
         }
         if ((flags & is_in) == 0) continue;
+        is_larger |= (flags & was_in) == 0;
         bool first = true;
         for (const auto &word : group) {
             std::uint64_t *const record = answers_->add();
@@ -119,12 +121,13 @@ template <int D> void Share<D>::join() {
     }
     groups.close();
     known_.add_all(reached_);
+    return is_larger;
 }
 
 template <int D>
 void Share<D>::vertices(const std::function<void(const abacus_share_vertex &)> &visit) {
     const std::size_t name = 1 + names_.words();
-    const std::size_t values = vertex_values_.are_apart() ? 0 : vertex_values_.count();
+    const std::size_t values = vertex_values_.are_elsewhere() ? 0 : vertex_values_.count();
     RecordSort sort(host_, name + 1 + values, name, memory_ / 2);
     each_known([&](const PageView<D> &page) {
         for (int v = 0; v < page.vertices(); ++v) {
@@ -151,8 +154,8 @@ void Share<D>::vertices(const std::function<void(const abacus_share_vertex &)> &
         for (int axis = 0; axis < D; ++axis) p[axis] = from_ordered(record[2 + axis]);
         std::copy_n(p.begin(), D, vertex.point);
         vertex.attributes = reinterpret_cast<const double *>(record + name + 1);
-        if (vertex_values_.are_apart()) {
-            vertex_values_.all_at(p, apart.data());
+        if (vertex_values_.are_elsewhere()) {
+            vertex_values_.all_of(vertex.id, p, apart.data());
             vertex.attributes = apart.data();
         }
         visit(vertex);

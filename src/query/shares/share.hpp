@@ -1,7 +1,8 @@
 // A part of a mesh, with layers of simplices around it and numbers for its vertices.
 //
 // V(0) are the vertices of the part's simplices; V(k + 1) are those of all simplices at a vertex of
-// V(k). So the share has the simplices at a vertex of V(halo - 1), and its vertices are V(halo). A
+// V(k). So the share has the simplices at a vertex of V(halo - 1), and its vertices are V(halo); a
+// layer without a new vertex is the last one, however many are wanted. A
 // vertex belongs to the least part that has a simplex at it; so all simplices at the vertices of
 // V(halo) are read, also those beyond the share.
 //
@@ -46,8 +47,9 @@ private:
     void find_members(const PageView<D> &page);
     /// Adds all pages that may have a simplex at a vertex of V(k).
     void reach();
-    /// Answers for all pages, for V(k).
-    void join();
+    /// Answers for all pages, for V(k). False if V(k - 1) is the same: then so are all further
+    /// ones.
+    bool join();
     bool is_member(const PageView<D> &page, int simplex) const;
     /// Comes first in the order of the numbers: the part itself, then the others.
     std::uint64_t rank_of(std::uint64_t answer) const {

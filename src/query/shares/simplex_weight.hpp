@@ -1,12 +1,18 @@
 // The weight of a simplex when a mesh is cut into parts: 1, a label, or the mean of an attribute at
 // its corners.
+//
+// Only the ratios of weights matter. So the sum of the corners stands for their mean, and it is
+// given as its summands: nothing is rounded.
 #pragma once
 
+#include "geometry/exact_sum.hpp"
 #include "geometry/in_words.hpp"
 #include "query/pages/page_values.hpp"
 #include "query/scan/simplex_labels.hpp"
 
 #include <abacus/shares.h>
+
+#include <span>
 
 namespace abacus {
 
@@ -23,45 +29,52 @@ public:
         page_ = &page;
         values_.enter(page);
     }
-    /// Of a finite simplex of the page. A value that is missing counts as 0; throws if the weight
-    /// is negative.
-    double of(int simplex) {
-        double weight = 1;
+    /// Of a finite simplex of the page: doubles whose sum is its weight, valid until the next call.
+    /// A value that is missing counts as 0; throws if the weight is negative, or infinite.
+    std::span<const double> of(int simplex) {
+        std::span<const double> terms(terms_.data(), 1);
         if (cut_.weight == ABACUS_WEIGHT_LABEL)
-            weight = or_zero(labels_.of_page(*page_, simplex)[cut_.column]);
-        if (cut_.weight == ABACUS_WEIGHT_ATTRIBUTE) weight = mean(simplex);
-        if (weight < 0) throw_negative(simplex, weight);
-        return weight;
+            terms_[0] = or_zero(labels_.of_page(*page_, simplex)[cut_.column]);
+        else if (cut_.weight == ABACUS_WEIGHT_ATTRIBUTE) {
+            for (int i = 0; i <= D; ++i)
+                terms_[i] = or_zero(values_.value(page_->corner(simplex, i)));
+            terms = terms_;
+        }
+        if (std::any_of(terms.begin(), terms.end(), [](double x) { return !(x >= 0) || x > most; }))
+            require_weight(simplex, terms);
+        return terms;
     }
 
 private:
+    static constexpr double most = std::numeric_limits<double>::max();
+
     static double or_zero(double value) { return std::isnan(value) ? 0 : value; }
-    /// Summed in the order of the values, so that it does not depend on that of the corners.
-    double mean(int simplex) const {
-        std::array<double, D + 1> shares;
-        for (int i = 0; i <= D; ++i)
-            shares[i] = or_zero(values_.value(page_->corner(simplex, i))) / (D + 1);
-        std::sort(shares.begin(), shares.end());
-        double sum = 0;
-        for (const double share : shares) sum += share;
-        return sum;
+    void require_weight(int simplex, std::span<const double> terms) const {
+        ExactSum sum;
+        for (const double term : terms) sum.add(term);
+        const double value = sum.value(); // rounded once, so it has the sign of the sum
+        if (std::any_of(terms.begin(), terms.end(), [](double x) { return std::isinf(x); }))
+            refuse(simplex, value, "No part could have as much as the others.");
+        if (value < 0)
+            refuse(simplex, value / static_cast<double>(terms.size()),
+                   "A part would have less with it than without it.");
     }
-    [[noreturn]] void throw_negative(int simplex, double weight) const {
+    [[noreturn]] void refuse(int simplex, double weight, const char *why) const {
         std::array<std::int64_t, D + 1> corners;
         for (int i = 0; i <= D; ++i) corners[i] = page_->id(page_->corner(simplex, i));
         std::sort(corners.begin(), corners.end());
         std::string ids;
         for (const std::int64_t id : corners) ids += (ids.empty() ? "" : ", ") + std::to_string(id);
         throw Error(ABACUS_ERROR_ARGUMENT,
-                    "the simplex (" + ids + ") has the weight " + in_words(std::array{weight}),
-                    "A part would have less with it than without it.",
-                    "Give weights of at least 0.");
+                    "the simplex (" + ids + ") has the weight " + in_words(std::array{weight}), why,
+                    "Give finite weights of at least 0.");
     }
 
     const abacus_cut cut_;
     PageValues<D> values_;
     SimplexLabels<D> labels_;
     const PageView<D> *page_ = nullptr;
+    std::array<double, D + 1> terms_{1};
 };
 
 } // namespace abacus

@@ -38,6 +38,18 @@ refuse_regions(FunctionCallInfo fcinfo, const LevelArguments *arguments)
 				 errhint("Leave out regions, or max_error and pixel_error.")));
 }
 
+/* The error of a level is that of an attribute, and says nothing of a solution. */
+static void
+refuse_step(FunctionCallInfo fcinfo, const LevelArguments *arguments)
+{
+	if (is_given(fcinfo, arguments->step))
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+				 errmsg("step cannot be read where an error is allowed"),
+				 errdetail("The error of a level is that of an attribute, not of a step."),
+				 errhint("Leave out step, or max_error and pixel_error.")));
+}
+
 static Oid
 choose(FunctionCallInfo fcinfo, const LevelArguments *arguments, double max_error)
 {
@@ -45,6 +57,7 @@ choose(FunctionCallInfo fcinfo, const LevelArguments *arguments, double max_erro
 		? text_to_cstring(PG_GETARG_TEXT_PP(arguments->attribute)) : NULL;
 
 	refuse_regions(fcinfo, arguments);
+	refuse_step(fcinfo, arguments);
 	return levels_choose(PG_GETARG_OID(arguments->mesh), max_error, attribute);
 }
 

@@ -13,6 +13,7 @@ typedef struct LevelArguments
 	int			attribute;
 	int			within;
 	int			regions;
+	int			step;
 	int			max_error;
 	int			pixel_error;
 } LevelArguments;

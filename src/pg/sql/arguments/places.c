@@ -18,6 +18,7 @@ places_open(PlacesRead *read, Oid mesh, uint32 type, const char *query)
 
 	source_prepare(&read->source, query);
 	reader = reader_open_of(mesh, type, CurrentMemoryContext);
+	read->reader = reader;
 	read->host = reader->host;
 	read->dimension = reader->header.facts.form.dimension;
 	read->names = abacus_names_of(&reader->header);

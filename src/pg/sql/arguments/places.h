@@ -16,6 +16,7 @@
 typedef struct PlacesRead
 {
 	Source		source;
+	Reader	   *reader;			/* its host and header are below */
 	Host	   *host;
 	uint32		dimension;
 	abacus_names names;

@@ -16,9 +16,9 @@
 #include "pg/base/sql_function.h"
 #include "pg/mesh/reader.h"
 #include "pg/mesh/shape.h"
-#include "pg/sql/arguments/attribute.h"
 #include "pg/sql/arguments/extent_arguments.h"
 #include "pg/sql/arguments/level_argument.h"
+#include "pg/sql/arguments/step_argument.h"
 #include "pg/sql/arguments/units.h"
 #include "pg/sql/arguments/word.h"
 #include "pg/sql/draw/drawing.h"
@@ -57,7 +57,8 @@ enum
 	DRAW_REGIONS,
 	DRAW_LINES,
 	DRAW_MAX_ERROR,
-	DRAW_CONTOUR_LABELS
+	DRAW_CONTOUR_LABELS,
+	DRAW_STEP
 };
 
 /* Arguments of abacus_draw_section */
@@ -75,7 +76,8 @@ enum
 	SECTION_EXAGGERATION,
 	SECTION_MAX_EDGE,
 	SECTION_RANGE,
-	SECTION_STYLE
+	SECTION_STYLE,
+	SECTION_STEP = SECTION_STYLE + STYLE_ARGUMENTS
 };
 
 static ArrayType *
@@ -156,10 +158,10 @@ open_drawn(Oid drawn)
 
 /*
  * The number of an attribute by its name, or, counted after the attributes, of a label; -1 if not
- * given.
+ * given, unless a step is.
  */
 static int
-attribute_or_label(FunctionCallInfo fcinfo, int argument, abacus_names names)
+attribute_or_label(FunctionCallInfo fcinfo, int argument, int step, abacus_names names)
 {
 	if (!PG_ARGISNULL(argument))
 	{
@@ -173,7 +175,7 @@ attribute_or_label(FunctionCallInfo fcinfo, int argument, abacus_names names)
 					(errcode(ERRCODE_UNDEFINED_COLUMN),
 					 errmsg("mesh has no attribute or label \"%s\"", name)));
 	}
-	return attribute_or_none(fcinfo, argument, names);
+	return step_or_attribute(fcinfo, step, argument, names);
 }
 
 /*
@@ -230,14 +232,15 @@ tell_blank(const Reader *reader, const abacus_drawing *drawing, const char *cell
  * upper float8[], attribute text, edges boolean, exaggeration float8,
  * max_edge float8, range float8[], ramp text, contours float8, legend text,
  * scale_bar text, transparent boolean, light float8[], within text,
- * regions boolean, lines boolean, max_error float8, contour_labels boolean) -> bytea
+ * regions boolean, lines boolean, max_error float8, contour_labels boolean,
+ * step int8) -> bytea
  */
 Datum
 abacus_sql_draw(PG_FUNCTION_ARGS)
 {
 	static const LevelArguments level = {
 		.mesh = DRAW_MESH,.attribute = DRAW_ATTRIBUTE,.within = DRAW_WITHIN,.regions = DRAW_REGIONS,
-		.max_error = DRAW_MAX_ERROR,.pixel_error = -1
+		.step = DRAW_STEP,.max_error = DRAW_MAX_ERROR,.pixel_error = -1
 	};
 	Oid			mesh;
 	Reader	   *reader;
@@ -251,9 +254,10 @@ abacus_sql_draw(PG_FUNCTION_ARGS)
 	reader = open_drawn(mesh);
 	host = reader->host;
 	header_require_dimension(&reader->header.facts.form, 2, "Use abacus_draw_section for a cut through it.");
+	step_argument(fcinfo, DRAW_STEP, reader);
 	drawing.width = drawing_pixels(fcinfo, DRAW_WIDTH, 1024, "width");
 	drawing.height = drawing_pixels(fcinfo, DRAW_HEIGHT, 0, "height");
-	drawing.attribute = attribute_or_label(fcinfo, DRAW_ATTRIBUTE, abacus_names_of(&reader->header));
+	drawing.attribute = attribute_or_label(fcinfo, DRAW_ATTRIBUTE, DRAW_STEP, abacus_names_of(&reader->header));
 	drawing.edges = PG_ARGISNULL(DRAW_EDGES) || PG_GETARG_BOOL(DRAW_EDGES);
 	drawing.exaggeration = drawing_factor(fcinfo, DRAW_EXAGGERATION, "exaggeration");
 	extent_arguments(fcinfo, DRAW_MAX_EDGE, DRAW_WITHIN, mesh, &reader->header, reader->host,
@@ -280,7 +284,7 @@ abacus_sql_draw(PG_FUNCTION_ARGS)
  * abacus_draw_section(mesh regclass, through float8[], normal float8[],
  * width int, height int, attribute text, edges boolean, lower float8[],
  * upper float8[], exaggeration float8, max_edge float8, range float8[], ramp text,
- * contours float8, legend text, scale_bar text, transparent boolean) -> bytea
+ * contours float8, legend text, scale_bar text, transparent boolean, step int8) -> bytea
  */
 Datum
 abacus_sql_draw_section(PG_FUNCTION_ARGS)
@@ -297,13 +301,14 @@ abacus_sql_draw_section(PG_FUNCTION_ARGS)
 	reader = open_drawn(PG_GETARG_OID(SECTION_MESH));
 	host = reader->host;
 	header_require_dimension(&reader->header.facts.form, 3, "Use abacus_draw for a mesh of dimension 2.");
+	step_argument(fcinfo, SECTION_STEP, reader);
 	shape_point(&reader->header.facts.form, array(fcinfo, SECTION_THROUGH), "through", section.through);
 	shape_point(&reader->header.facts.form, array(fcinfo, SECTION_NORMAL), "normal", section.normal);
 	section.exaggeration = PG_ARGISNULL(SECTION_EXAGGERATION) ? 1 :
 		PG_GETARG_FLOAT8(SECTION_EXAGGERATION);
 	drawing.width = drawing_pixels(fcinfo, SECTION_WIDTH, 1024, "width");
 	drawing.height = drawing_pixels(fcinfo, SECTION_HEIGHT, 0, "height");
-	drawing.attribute = attribute_or_label(fcinfo, SECTION_ATTRIBUTE, abacus_names_of(&reader->header));
+	drawing.attribute = attribute_or_label(fcinfo, SECTION_ATTRIBUTE, SECTION_STEP, abacus_names_of(&reader->header));
 	drawing.edges = PG_ARGISNULL(SECTION_EDGES) || PG_GETARG_BOOL(SECTION_EDGES);
 	drawing.extent.max_edge = extent_max_edge(fcinfo, SECTION_MAX_EDGE);
 	drawing_range(fcinfo, SECTION_RANGE, &drawing);
@@ -338,7 +343,8 @@ enum
 	VOLUME_RANGE,
 	VOLUME_RAMP,
 	VOLUME_LEGEND,
-	VOLUME_TRANSPARENT
+	VOLUME_TRANSPARENT,
+	VOLUME_STEP
 };
 
 /* In the order of the core's numbers */
@@ -371,7 +377,7 @@ camera_arguments(FunctionCallInfo fcinfo, const abacus_form *form, abacus_camera
  * abacus_draw_volume(mesh regclass, eye float8[], toward float8[], up float8[],
  * field_of_view float8, width int, height int, attribute text, mode text,
  * lower float8[], upper float8[], max_edge float8, range float8[], ramp text,
- * legend text, transparent boolean) -> bytea
+ * legend text, transparent boolean, step int8) -> bytea
  */
 Datum
 abacus_sql_draw_volume(PG_FUNCTION_ARGS)
@@ -387,10 +393,11 @@ abacus_sql_draw_volume(PG_FUNCTION_ARGS)
 	reader = reader_open(PG_GETARG_OID(VOLUME_MESH), CurrentMemoryContext);
 	host = reader->host;
 	header_require_dimension(&reader->header.facts.form, 3, "Use abacus_draw for a mesh of dimension 2.");
+	step_argument(fcinfo, VOLUME_STEP, reader);
 	camera_arguments(fcinfo, &reader->header.facts.form, &camera);
 	drawing.width = drawing_pixels(fcinfo, VOLUME_WIDTH, 1024, "width");
 	drawing.height = drawing_pixels(fcinfo, VOLUME_HEIGHT, 0, "height");
-	drawing.attribute = attribute_or_none(fcinfo, VOLUME_ATTRIBUTE, abacus_names_of(&reader->header));
+	drawing.attribute = step_or_attribute(fcinfo, VOLUME_STEP, VOLUME_ATTRIBUTE, abacus_names_of(&reader->header));
 	drawing.extent.max_edge = extent_max_edge(fcinfo, VOLUME_MAX_EDGE);
 	if (!PG_ARGISNULL(VOLUME_RANGE))
 		shape_range(PG_GETARG_ARRAYTYPE_P(VOLUME_RANGE), "range", drawing.range);

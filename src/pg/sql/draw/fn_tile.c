@@ -19,12 +19,13 @@
 #include "pg/mesh/reader.h"
 #include "pg/mesh/regions_table.h"
 #include "pg/mesh/shape.h"
-#include "pg/sql/arguments/attribute.h"
 #include "pg/sql/arguments/extent_arguments.h"
 #include "pg/sql/arguments/level_argument.h"
+#include "pg/sql/arguments/step_argument.h"
 #include "pg/sql/draw/drawing.h"
 #include "pg/sql/draw/tile_lines.h"
 #include "pg/sql/draw/tile_map.h"
+#include "pg/steps/step.h"
 
 SQL_FUNCTION(abacus_sql_tile_picture);
 SQL_FUNCTION(abacus_sql_tile_vector);
@@ -58,7 +59,8 @@ enum
 	PICTURE_REGIONS,
 	PICTURE_LINES,
 	PICTURE_MAX_ERROR,
-	PICTURE_PIXEL_ERROR
+	PICTURE_PIXEL_ERROR,
+	PICTURE_STEP
 };
 
 /* ... of abacus_tile_vector */
@@ -69,7 +71,8 @@ enum
 	VECTOR_MAX_EDGE,
 	VECTOR_WITHIN,
 	VECTOR_MAX_ERROR,
-	VECTOR_PIXEL_ERROR
+	VECTOR_PIXEL_ERROR,
+	VECTOR_STEP
 };
 
 /* ... of abacus_tile_terrain */
@@ -81,20 +84,21 @@ enum
 	TERRAIN_FILL,
 	TERRAIN_WITHIN,
 	TERRAIN_MAX_ERROR,
-	TERRAIN_PIXEL_ERROR
+	TERRAIN_PIXEL_ERROR,
+	TERRAIN_STEP
 };
 
 static const LevelArguments picture_level = {
 	.mesh = TILE_MESH,.attribute = PICTURE_ATTRIBUTE,.within = PICTURE_WITHIN,.regions = PICTURE_REGIONS,
-	.max_error = PICTURE_MAX_ERROR,.pixel_error = PICTURE_PIXEL_ERROR
+	.step = PICTURE_STEP,.max_error = PICTURE_MAX_ERROR,.pixel_error = PICTURE_PIXEL_ERROR
 };
 static const LevelArguments vector_level = {
 	.mesh = TILE_MESH,.attribute = VECTOR_ATTRIBUTE,.within = VECTOR_WITHIN,.regions = -1,
-	.max_error = VECTOR_MAX_ERROR,.pixel_error = VECTOR_PIXEL_ERROR
+	.step = VECTOR_STEP,.max_error = VECTOR_MAX_ERROR,.pixel_error = VECTOR_PIXEL_ERROR
 };
 static const LevelArguments terrain_level = {
 	.mesh = TILE_MESH,.attribute = TERRAIN_ATTRIBUTE,.within = TERRAIN_WITHIN,.regions = -1,
-	.max_error = TERRAIN_MAX_ERROR,.pixel_error = TERRAIN_PIXEL_ERROR
+	.step = TERRAIN_STEP,.max_error = TERRAIN_MAX_ERROR,.pixel_error = TERRAIN_PIXEL_ERROR
 };
 
 /* Pixels of a tile of which no size is given, as those of vectors */
@@ -169,7 +173,9 @@ tile_begin(FunctionCallInfo fcinfo, const LevelArguments *level, int size, abacu
 	tile->y = PG_GETARG_INT32(TILE_Y);
 	memory->sort = setting_query_sort_bytes();
 	memory->cache = setting_cache_bytes();
-	return open_level(fcinfo, reader, tile, level, size < 0 ? TILE_SIZE : tile_size(fcinfo, size));
+	reader = open_level(fcinfo, reader, tile, level, size < 0 ? TILE_SIZE : tile_size(fcinfo, size));
+	step_argument(fcinfo, level->step, reader);
+	return reader;
 }
 
 /*
@@ -177,7 +183,7 @@ tile_begin(FunctionCallInfo fcinfo, const LevelArguments *level, int size, abacu
  * world float8[], size int,
  * attribute text, range float8[], edges boolean, exaggeration float8,
  * max_edge float8, ramp text, contours float8, within text, regions boolean, lines boolean,
- * max_error float8, pixel_error float8) -> bytea
+ * max_error float8, pixel_error float8, step int8) -> bytea
  */
 Datum
 abacus_sql_tile_picture(PG_FUNCTION_ARGS)
@@ -193,7 +199,7 @@ abacus_sql_tile_picture(PG_FUNCTION_ARGS)
 		PG_RETURN_NULL();
 	host = reader->host;
 	drawing.width = tile_size(fcinfo, PICTURE_SIZE);
-	drawing.attribute = attribute_or_none(fcinfo, PICTURE_ATTRIBUTE, abacus_names_of(&reader->header));
+	drawing.attribute = step_or_attribute(fcinfo, PICTURE_STEP, PICTURE_ATTRIBUTE, abacus_names_of(&reader->header));
 	drawing_range(fcinfo, PICTURE_RANGE, &drawing);
 	drawing.edges = PG_ARGISNULL(PICTURE_EDGES) || PG_GETARG_BOOL(PICTURE_EDGES);
 	drawing.exaggeration = drawing_factor(fcinfo, PICTURE_EXAGGERATION, "exaggeration");
@@ -250,7 +256,7 @@ find_name(void *context, uint32_t region, const char **name)
 /*
  * abacus_tile_vector(mesh regclass, z int, x int, y int, srid int,
  * world float8[], attribute text,
- * contours float8, max_edge float8, within text, max_error float8, pixel_error float8) -> bytea
+ * contours float8, max_edge float8, within text, max_error float8, pixel_error float8, step int8) -> bytea
  */
 Datum
 abacus_sql_tile_vector(PG_FUNCTION_ARGS)
@@ -293,7 +299,7 @@ abacus_sql_tile_vector(PG_FUNCTION_ARGS)
  * abacus_tile_terrain(mesh regclass, z int, x int, y int, srid int,
  * world float8[], size int,
  * attribute text, max_edge float8, fill float8, within text, max_error float8,
- * pixel_error float8) -> bytea
+ * pixel_error float8, step int8) -> bytea
  */
 Datum
 abacus_sql_tile_terrain(PG_FUNCTION_ARGS)
@@ -332,19 +338,25 @@ abacus_sql_tile_terrain(PG_FUNCTION_ARGS)
 	PG_RETURN_BYTEA_P(drawing_finish(host, &picture));
 }
 
-/* abacus_tile_etag(mesh regclass) -> text */
+/* abacus_tile_etag(mesh regclass, step int8) -> text */
 Datum
 abacus_sql_tile_etag(PG_FUNCTION_ARGS)
 {
-	Reader	   *reader = reader_open(PG_GETARG_OID(0), CurrentMemoryContext);
-	char	   *stamp = psprintf("%016llx", (unsigned long long) reader->header.stamp);
+	Reader	   *reader;
+	char	   *stamp;
 	Level	   *levels;
 	int			count;
 
+	if (PG_ARGISNULL(0))
+		PG_RETURN_NULL();
+	reader = reader_open(PG_GETARG_OID(0), CurrentMemoryContext);
+	stamp = psprintf("%016llx", (unsigned long long) reader->header.stamp);
 	host_release(reader->host);
 	host_destroy(reader->host);
 	count = levels_read_if_allowed(PG_GETARG_OID(0), &levels);
 	if (count > 0)
 		stamp = psprintf("%s-%08x", stamp, levels_hash(levels, count));
+	if (!PG_ARGISNULL(1))
+		stamp = psprintf("%s-%s", stamp, step_tag(PG_GETARG_OID(0), PG_GETARG_INT64(1)));
 	PG_RETURN_TEXT_P(cstring_to_text(stamp));
 }

@@ -8,6 +8,7 @@
 #include "pg/base/sql_function.h"
 #include "pg/mesh/reader.h"
 #include "pg/sql/arguments/level_argument.h"
+#include "pg/sql/arguments/step_argument.h"
 #include "pg/sql/arguments/word.h"
 #include "pg/sql/draw/drawing.h"
 #include "pg/sql/draw/tile_map.h"
@@ -25,12 +26,13 @@ enum
 	MESH_WORLD,
 	MESH_FORMAT,
 	MESH_SCHEME,
-	MESH_MAX_ERROR
+	MESH_MAX_ERROR,
+	MESH_STEP
 };
 
 static const LevelArguments mesh_level = {
 	.mesh = MESH_MESH,.attribute = MESH_ATTRIBUTE,.within = -1,.regions = -1,
-	.max_error = MESH_MAX_ERROR,.pixel_error = -1
+	.step = MESH_STEP,.max_error = MESH_MAX_ERROR,.pixel_error = -1
 };
 
 /* In the order of abacus_tile_mesh_format */
@@ -45,6 +47,7 @@ open_surface(Oid mesh)
 	Reader	   *reader = reader_open(mesh, CurrentMemoryContext);
 
 	header_require_dimension(&reader->header.facts.form, 2, "Use a mesh in the plane.");
+	step_argument(fcinfo, MESH_STEP, reader);
 	header_require_attributes(&reader->header.facts);
 	return reader;
 }
@@ -85,7 +88,7 @@ plane_of(FunctionCallInfo fcinfo, const abacus_tile *tile, abacus_tile_mesh_form
 
 /*
  * abacus_tile_mesh(mesh regclass, z int, x int, y int, attribute text, srid int, world float8[],
- * format text, scheme text, max_error float8) -> bytea
+ * format text, scheme text, max_error float8, step int8) -> bytea
  */
 Datum
 abacus_sql_tile_mesh(PG_FUNCTION_ARGS)

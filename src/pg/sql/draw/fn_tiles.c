@@ -19,7 +19,9 @@
 #include "pg/mesh/reader.h"
 #include "pg/mesh/shape.h"
 #include "pg/sql/arguments/attribute.h"
+#include "pg/sql/arguments/step_argument.h"
 #include "pg/sql/draw/drawing.h"
+#include "pg/steps/step.h"
 
 SQL_FUNCTION(abacus_sql_tiles);
 
@@ -40,7 +42,8 @@ enum
 	TILES_WITHIN,
 	TILES_REGIONS,
 	TILES_LINES,
-	TILES_PIXEL_ERROR
+	TILES_PIXEL_ERROR,
+	TILES_STEP
 };
 
 /* The parts of the functions as SQL; what is not given is NULL. */
@@ -63,6 +66,8 @@ typedef struct Tiles
 	const char *regions;
 	const char *lines;
 	const char *pixel_error;
+	const char *step;
+	bool		has_step;
 	const char *srid;
 	const char *fill;			/* the height outside the mesh */
 	int32		size;
@@ -95,15 +100,18 @@ run(const char *command)
 		elog(ERROR, "could not run \"%s\": %s", command, SPI_result_code_string(status));
 }
 
-/* The least and the greatest value of the attribute. */
+/* The least and the greatest value of the attribute, or of a step. */
 static void
-find_range(const Tiles *tiles, double *range)
+find_range(FunctionCallInfo fcinfo, int attribute, const Tiles *tiles, double *range)
 {
 	bool		isnull = true;
 
-	run(psprintf("SELECT least, greatest FROM %s.abacus_attributes(%s) WHERE name = %s",
+	if (!PG_ARGISNULL(TILES_STEP))
+		isnull = !step_range(PG_GETARG_OID(TILES_MESH), PG_GETARG_INT64(TILES_STEP), attribute, range);
+	else
+		run(psprintf("SELECT least, greatest FROM %s.abacus_attributes(%s) WHERE name = %s",
 				 tiles->extension, tiles->mesh, tiles->attribute));
-	for (int i = 0; i < 2 && SPI_processed == 1; i++)
+	for (int i = 0; PG_ARGISNULL(TILES_STEP) && i < 2 && SPI_processed == 1; i++)
 	{
 		Datum		value = SPI_getbinval(SPI_tuptable->vals[0], SPI_tuptable->tupdesc, i + 1,
 										  &isnull);
@@ -120,14 +128,14 @@ find_range(const Tiles *tiles, double *range)
 		range[1] = range[0] + 1;
 }
 
-/* The range of the attribute; its lower end is also the height where terrain ends. */
+/* The range of the attribute, which has this number; its lower end is also the height where terrain ends. */
 static void
-set_range(FunctionCallInfo fcinfo, Tiles *tiles)
+set_range(FunctionCallInfo fcinfo, int attribute, Tiles *tiles)
 {
 	double		range[2];
 
 	if (PG_ARGISNULL(TILES_RANGE))
-		find_range(tiles, range);
+		find_range(fcinfo, attribute, tiles, range);
 	else
 		shape_range(PG_GETARG_ARRAYTYPE_P(TILES_RANGE), "range", range);
 	tiles->fill = number_literal(range[0]);
@@ -187,49 +195,53 @@ make_with_etag(const Tiles *tiles, const char *suffix, const char *body, const c
 	uint32		hash = DatumGetUInt32(hash_any((const unsigned char *) body, (int) strlen(body)));
 
 	make(tiles, suffix, "json", "query_params json DEFAULT '{}'", "TABLE (tile bytea, etag text)",
-		 psprintf("%s, %s.abacus_tile_etag(%s) || '-%08x'", body, tiles->extension, tiles->mesh,
-				  hash),
+		 psprintf("%s, %s.abacus_tile_etag(%s, %s) || '-%08x'", body, tiles->extension, tiles->mesh,
+				  tiles->step, hash),
 		 comment);
 }
 
 static const char *
-vector_body(const Tiles *tiles, const char *contours)
+vector_body(const Tiles *tiles, const char *contours, const char *step)
 {
-	return psprintf("%s.abacus_tile_vector(%s, z, x, y, %s, %s, %s, %s, %s, %s, pixel_error => %s)", tiles->extension,
+	return psprintf("%s.abacus_tile_vector(%s, z, x, y, %s, %s, %s, %s, %s, %s, pixel_error => %s, step => %s)", tiles->extension,
 					tiles->mesh, tiles->srid, tiles->world, tiles->attribute, contours, tiles->max_edge,
-					tiles->within, tiles->pixel_error);
+					tiles->within, tiles->pixel_error, step);
 }
 
 static void
-make_all(const Tiles *tiles, bool has_attribute)
+make_all(Tiles *tiles, bool has_attribute)
 {
+	const char *own_step = tiles->step;
 	const char *contours = "NULL::float8";
 	const char *ramp = "NULL::text";
 	const char *regions = psprintf("coalesce((query_params ->> 'regions')::boolean, %s)", tiles->regions);
 	const char *lines = psprintf("coalesce((query_params ->> 'lines')::boolean, %s)", tiles->lines);
 
+	/* functions of a step show others, if a request names one; of a mesh they know no values of steps */
+	if (tiles->has_step)
+		tiles->step = psprintf("coalesce((query_params ->> 'step')::bigint, %s)", own_step);
 	if (has_attribute)
 	{
 		contours = psprintf("coalesce((query_params ->> 'contours')::float8, %s)", tiles->contours);
 		ramp = psprintf("coalesce(query_params ->> 'ramp', %s)", tiles->ramp);
 	}
 	make_with_etag(tiles, "picture",
-				   psprintf("%s.abacus_tile_picture(%s, z, x, y, %s, %s, %d, %s, %s, %s, %s, %s, %s, %s, %s, %s, %s, pixel_error => %s)",
+				   psprintf("%s.abacus_tile_picture(%s, z, x, y, %s, %s, %d, %s, %s, %s, %s, %s, %s, %s, %s, %s, %s, pixel_error => %s, step => %s)",
 							tiles->extension, tiles->mesh, tiles->srid, tiles->world, tiles->size,
 							tiles->attribute, tiles->range, tiles->edges, tiles->exaggeration,
-							tiles->max_edge, ramp, contours, tiles->within, regions, lines, tiles->pixel_error),
+							tiles->max_edge, ramp, contours, tiles->within, regions, lines, tiles->pixel_error, tiles->step),
 				   "{\"content_type\": \"image/png\", \"description\": \"A mesh as pictures\"}");
-	make_with_etag(tiles, "vector", vector_body(tiles, contours),
+	make_with_etag(tiles, "vector", vector_body(tiles, contours, tiles->step),
 				   "{\"content_type\": \"application/x-protobuf\", \"description\": \"A mesh: triangles, vertices, contours, fixed, hull\"}");
 	make(tiles, "mvt", "double precision",
 		 psprintf("contours double precision DEFAULT %s", tiles->contours), "bytea",
-		 vector_body(tiles, "contours"), "A mesh: triangles, vertices, contours, fixed, hull");
+		 vector_body(tiles, "contours", own_step), "A mesh: triangles, vertices, contours, fixed, hull");
 	if (has_attribute)
 		make_with_etag(tiles, "terrain",
-					   psprintf("%s.abacus_tile_terrain(%s, z, x, y, %s, %s, %d, %s, %s, %s, %s, pixel_error => %s)",
+					   psprintf("%s.abacus_tile_terrain(%s, z, x, y, %s, %s, %d, %s, %s, %s, %s, pixel_error => %s, step => %s)",
 								tiles->extension, tiles->mesh, tiles->srid, tiles->world, tiles->size,
 								tiles->attribute, tiles->max_edge, tiles->fill, tiles->within,
-								tiles->pixel_error),
+								tiles->pixel_error, tiles->step),
 					   "{\"content_type\": \"image/png\", \"encoding\": \"terrarium\", \"description\": \"A mesh as heights\"}");
 }
 
@@ -237,16 +249,16 @@ make_all(const Tiles *tiles, bool has_attribute)
 static void
 try_arguments(const Tiles *tiles)
 {
-	run(psprintf("SELECT %s.abacus_tile_picture(%s, 30, 0, 0, %s, %s, %d, %s, %s, %s, %s, %s, %s, %s, %s, %s, %s, pixel_error => %s)",
+	run(psprintf("SELECT %s.abacus_tile_picture(%s, 30, 0, 0, %s, %s, %d, %s, %s, %s, %s, %s, %s, %s, %s, %s, %s, pixel_error => %s, step => %s)",
 				 tiles->extension, tiles->mesh, tiles->srid, tiles->world, tiles->size, tiles->attribute,
 				 tiles->range, tiles->edges, tiles->exaggeration, tiles->max_edge, tiles->ramp,
-				 tiles->contours, tiles->within, tiles->regions, tiles->lines, tiles->pixel_error));
+				 tiles->contours, tiles->within, tiles->regions, tiles->lines, tiles->pixel_error, tiles->step));
 }
 
 /*
  * abacus_tiles(mesh regclass, srid int, world float8[], attribute text, range float8[],
  * contours float8, ramp text, exaggeration float8, edges boolean, max_edge float8,
- * size int, within text, regions boolean, lines boolean, pixel_error float8) -> setof regprocedure
+ * size int, within text, regions boolean, lines boolean, pixel_error float8, step int8) -> setof regprocedure
  */
 Datum
 abacus_sql_tiles(PG_FUNCTION_ARGS)
@@ -255,6 +267,7 @@ abacus_sql_tiles(PG_FUNCTION_ARGS)
 	Reader	   *reader;
 	Oid			mesh;
 	bool		has_attribute;
+	int			attribute = -1;
 	const char *numbers[4];
 	const int	number[4] = {TILES_CONTOURS, TILES_EXAGGERATION, TILES_MAX_EDGE, TILES_PIXEL_ERROR};
 
@@ -264,14 +277,12 @@ abacus_sql_tiles(PG_FUNCTION_ARGS)
 	mesh = PG_GETARG_OID(TILES_MESH);
 	reader = reader_open(mesh, CurrentMemoryContext);
 	header_require_dimension(&reader->header.facts.form, 2, "Use a mesh in the plane.");
+	step_argument(fcinfo, TILES_STEP, reader);
 	has_attribute = reader->header.facts.columns.attributes > 0;
 	tiles.attribute = text_literal(fcinfo, TILES_ATTRIBUTE);
 	if (has_attribute)
 	{
-		int			attribute = PG_ARGISNULL(TILES_ATTRIBUTE) ?
-			header_only_attribute(abacus_names_of(&reader->header)) :
-			attribute_or_none(fcinfo, TILES_ATTRIBUTE, abacus_names_of(&reader->header));
-
+		attribute = (int) attribute_argument(fcinfo, TILES_ATTRIBUTE, abacus_names_of(&reader->header));
 		tiles.attribute = quote_literal_cstr(reader->header.names[attribute]);
 	}
 	host_release(reader->host);
@@ -283,6 +294,9 @@ abacus_sql_tiles(PG_FUNCTION_ARGS)
 	tiles.exaggeration = numbers[1];
 	tiles.max_edge = numbers[2];
 	tiles.pixel_error = numbers[3];
+	tiles.has_step = !PG_ARGISNULL(TILES_STEP);
+	tiles.step = !tiles.has_step ? "NULL::bigint" :
+		psprintf("'" INT64_FORMAT "'::bigint", PG_GETARG_INT64(TILES_STEP));
 	tiles.extension = quote_identifier(get_namespace_name(get_func_namespace(fcinfo->flinfo->fn_oid)));
 	tiles.schema = get_namespace_name(get_rel_namespace(mesh));
 	tiles.name = get_rel_name(mesh);
@@ -300,7 +314,7 @@ abacus_sql_tiles(PG_FUNCTION_ARGS)
 
 	SPI_connect();
 	if (has_attribute)
-		set_range(fcinfo, &tiles);
+		set_range(fcinfo, attribute, &tiles);
 	try_arguments(&tiles);
 	make_all(&tiles, has_attribute);
 	SPI_finish();

@@ -277,7 +277,7 @@ abacus_sql_contours(PG_FUNCTION_ARGS)
 {
 	static const LevelArguments level = {
 		.mesh = ARGUMENT_MESH,.attribute = ARGUMENT_ATTRIBUTE,.within = ARGUMENT_WITHIN,.regions = -1,
-		.max_error = ARGUMENT_MAX_ERROR,.pixel_error = -1
+		.step = -1,.max_error = ARGUMENT_MAX_ERROR,.pixel_error = -1
 	};
 	Oid			mesh;
 	Answers		answers = {.set = (ReturnSetInfo *) fcinfo->resultinfo};

@@ -10,6 +10,7 @@
 #include "pg/base/sql_function.h"
 #include "pg/lines/named_rows.h"
 #include "pg/mesh/lines_table.h"
+#include "pg/steps/step.h"
 
 SQL_FUNCTION(abacus_sql_steps);
 
@@ -17,11 +18,7 @@ SQL_FUNCTION(abacus_sql_steps);
 Datum
 abacus_sql_steps(PG_FUNCTION_ARGS)
 {
-	/* the rows without id: values has parts, vertices, and two halves of the mesh's stamp */
-	static const char *const query =
-		"SELECT step, max(\"values\"[1])::integer, count(*)::integer, sum(\"values\"[2])::bigint, "
-		"count(*) = max(\"values\"[1]) AND count(DISTINCT (\"values\"[1], \"values\"[3], \"values\"[4])) = 1 "
-		"FROM %s WHERE id IS NULL GROUP BY step ORDER BY step";
+	static const char *const query = "SELECT step, parts, stored, vertices, whole FROM (" STEPS_QUERY ") AS steps";
 	ReturnSetInfo *set = (ReturnSetInfo *) fcinfo->resultinfo;
 	Relation	mesh;
 	Oid			table;
@@ -35,7 +32,7 @@ abacus_sql_steps(PG_FUNCTION_ARGS)
 		PG_RETURN_NULL();
 	SPI_connect();
 	level = plain_names_begin(false);
-	query_into(set->setResult, psprintf(query, lines_table_name(table)));
+	query_into(set->setResult, psprintf(query, lines_table_name(table), ""));
 	plain_names_end(level);
 	SPI_finish();
 	PG_RETURN_NULL();

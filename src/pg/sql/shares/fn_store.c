@@ -2,15 +2,18 @@
  * fn_store.c: abacus_store, which takes the solution of one part of a mesh back, at one step.
  *
  * The ids must be those of the part's own vertices, each once. A last row, without id, says that the part is
- * there: its values are the number of parts, how many vertices the part has, and the stamp of the mesh, in two
- * halves that a double can hold. A step is whole when the rows of all its parts say the same.
+ * there: its values are the number of parts, how many vertices the part has, the stamp of the mesh, in two
+ * halves that a double can hold, and how many values each vertex has. A step is whole when the rows of all its parts say the same.
  */
 #include "postgres.h"
 
 #include "access/table.h"
+#include "access/xact.h"
 #include "catalog/pg_type.h"
 #include "storage/lock.h"
 #include "utils/builtins.h"
+#include "utils/lsyscache.h"
+#include "utils/snapmgr.h"
 
 #include "pg/base/settings.h"
 #include "pg/base/sql_function.h"
@@ -18,7 +21,8 @@
 #include "pg/input/source.h"
 #include "pg/lines/named_rows.h"
 #include "pg/mesh/mesh_cache.h"
-#include "pg/sql/shares/steps_table.h"
+#include "pg/mesh/reader.h"
+#include "pg/steps/steps_table.h"
 #include "pg/sql/rows/result.h"
 #include "pg/sql/shares/share_arguments.h"
 
@@ -91,11 +95,12 @@ put_own(void *context, const abacus_share_vertex *vertex)
 	return ABACUS_HOST_OK;
 }
 
-/* How the mesh was cut, and when: values of the row that says that a part is there. */
+/* How the mesh was cut, and when, and how many values came: of the row that says that a part is there. */
 typedef struct PartMark
 {
 	uint32		parts;
 	uint64		stamp;
+	uint32		values;
 } PartMark;
 
 static NamedRows *
@@ -113,6 +118,31 @@ find_own(FunctionCallInfo fcinfo, PartMark *mark)
 			 put_own, &own);
 	host_release(cached->host);
 	return own.rows;
+}
+
+/*
+ * The mesh must still be as the active snapshot shows it: what this command has changed since, that snapshot
+ * does not see, but the solution would belong to it.
+ */
+static void
+refuse_own_changes(Oid mesh, uint64 stamp)
+{
+	Reader	   *reader;
+	bool		is_same;
+
+	CommandCounterIncrement();
+	PushCopiedSnapshot(GetActiveSnapshot());
+	UpdateActiveSnapshotCommandId();
+	reader = reader_open(mesh, CurrentMemoryContext);
+	is_same = reader->header.stamp == stamp;
+	host_release(reader->host);
+	host_destroy(reader->host);
+	PopActiveSnapshot();
+	if (!is_same)
+		ereport(ERROR,
+				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
+				 errmsg("the statement that stores values also changes mesh \"%s\"", get_rel_name(mesh)),
+				 errhint("Change the mesh first, in a statement of its own, and read the shares again.")));
 }
 
 /* An error if an id is there twice. */
@@ -205,8 +235,8 @@ replace_rows(const char *table, int64 step, uint32 part, const PartMark *mark, u
 	insert_rows(table,
 				psprintf("INSERT INTO %s (step, part, id, \"values\") SELECT '" INT64_FORMAT "'::int8, %u, id, \"values\" "
 						 "FROM given UNION ALL SELECT '" INT64_FORMAT "', %u, NULL, ARRAY[%u, " UINT64_FORMAT
-						 ", %u, %u]::float8[]", table, step, part, step, part, mark->parts, rows,
-						 (uint32) (mark->stamp >> 32), (uint32) mark->stamp),
+						 ", %u, %u, %u]::float8[]", table, step, part, step, part, mark->parts, rows,
+						 (uint32) (mark->stamp >> 32), (uint32) mark->stamp, mark->values),
 				rows + 1);
 }
 
@@ -240,8 +270,10 @@ abacus_sql_store(PG_FUNCTION_ARGS)
 	source_prepare(&source, text_to_cstring(PG_GETARG_TEXT_PP(STORE_QUERY)));
 	given = read_rows(&source);
 	rows = given->count;
+	mark.values = (uint32) source_columns(&source) - 1;
 	mesh = mesh_table_open(mesh_id, MESH_READ);
 	own = find_own(fcinfo, &mark);
+	refuse_own_changes(mesh_id, mark.stamp);
 	named_rows_register(given);
 	named_rows_register(own);
 	level = plain_names_begin(false);

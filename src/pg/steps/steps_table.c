@@ -19,7 +19,7 @@
 
 #include "pg/mesh/lines_table.h"
 #include "pg/mesh/new_table.h"
-#include "pg/sql/shares/steps_table.h"
+#include "pg/steps/steps_table.h"
 
 static Oid
 make_table(Relation mesh)
@@ -47,8 +47,20 @@ has_partition(Oid table, const char *name)
 	return OidIsValid(relid) && get_rel_relispartition(relid) && get_partition_parent(relid, false) == table;
 }
 
+/* The name of a partition is too long. A table that this call has made goes with the error. */
 static void
-make_partition(Relation mesh, Oid table, const char *name, int64 step)
+refuse_name(Relation mesh, Oid table, bool is_new, const char *name, int64 step)
+{
+	ereport(ERROR,
+			(errcode(ERRCODE_NAME_TOO_LONG),
+			 errmsg("name of %s \"%s\" is too long for step " INT64_FORMAT, is_new ? "mesh" : "table",
+					is_new ? RelationGetRelationName(mesh) : get_rel_name(table), step),
+			 errdetail("The partition of the step would be \"%s\"; names have at most %d bytes.", name, NAMEDATALEN - 1),
+			 is_new ? errhint("Rename the mesh.") : errhint("Rename the table, which stays that of the mesh.")));
+}
+
+static void
+make_partition(Relation mesh, Oid table, bool is_new, const char *name, int64 step)
 {
 	char	   *parent = lines_table_name(table);
 	char	   *partition = quote_qualified_identifier(get_namespace_name(get_rel_namespace(table)), name);
@@ -58,11 +70,7 @@ make_partition(Relation mesh, Oid table, const char *name, int64 step)
 	if (has_partition(table, name))
 		return;
 	if (strlen(name) >= NAMEDATALEN)
-		ereport(ERROR,
-				(errcode(ERRCODE_NAME_TOO_LONG),
-				 errmsg("name of table \"%s\" is too long for step " INT64_FORMAT, get_rel_name(table), step),
-				 errdetail("Its partition would be \"%s\"; names have at most %d bytes.", name, NAMEDATALEN - 1),
-				 errhint("Rename the table.")));
+		refuse_name(mesh, table, is_new, name, step);
 	new_table_check_name(get_rel_namespace(table), name);
 	side_table_create(mesh, psprintf("CREATE %sTABLE %s (LIKE %s) USING heap",
 									 mesh->rd_rel->relpersistence == RELPERSISTENCE_UNLOGGED ? "UNLOGGED " : "",
@@ -76,12 +84,13 @@ char *
 steps_table_for(Relation mesh, int64 step)
 {
 	Oid			table = mesh_rows_table(mesh, MESH_STEPS, MESH_WRITE);
+	bool		is_new = !OidIsValid(table);
 	char	   *partition;
 
-	if (!OidIsValid(table))
+	if (is_new)
 		table = make_table(mesh);
 	partition = psprintf("%s_" INT64_FORMAT, get_rel_name(table), step);
 	if (!has_partition(table, partition))
-		make_partition(mesh, table, partition, step);
+		make_partition(mesh, table, is_new, partition, step);
 	return lines_table_name(table);
 }
