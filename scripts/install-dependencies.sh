@@ -40,6 +40,7 @@ test=(
     python3-numpy python3-scipy python3-matplotlib python3-vtk9   # for comparing answers
     gdal-bin                        # reads tiles; gdal_grid, for comparison
     libp4est-dev libopenmpi-dev     # p4est, for comparing octrees
+    metis                           # cuts a graph, for comparing parts
     openmpi-bin python3-mpi4py python3-petsc4py   # ranks of the parallel example
     python3-meshio python3-gmsh python3-h5py   # read and write the files of meshes
     python3-gdal                    # GeoTIFF

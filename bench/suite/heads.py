@@ -10,7 +10,7 @@ PEERS = {
     "cgal": CGAL, "cgal_parallel": [*CGAL, ("TBB", "libtbb-dev")], "tetgen": [("TetGen", r"libtet1\.\d")],
     "qhull": [("Qhull", r"libqhull-r8\.\d")], "postgis": POSTGIS, "postgis_kept": POSTGIS,
     "scipy": [("SciPy", "python3-scipy")], "matplotlib": [("matplotlib", "python3-matplotlib")],
-    "gdal": [("GDAL", "gdal-bin")], "vtk": [("VTK", "python3-vtk9")], "p4est": [("p4est", "libp4est-dev")],
+    "gdal": [("GDAL", "gdal-bin")], "vtk": [("VTK", "python3-vtk9")], "p4est": [("p4est", "libp4est-dev")], "metis": [("METIS", "metis")],
     "cupy": [("CuPy", "cupy"), ("CUDA", "cuda")]}
 SERVER = [("PostgreSQL", r"postgresql-\d+")]
 

@@ -10,7 +10,7 @@ import paths
 SERVER = "postgresql-" + os.environ.get("ABACUS_POSTGRESQL", "15")
 # Patterns of dpkg-query; heads.py says which belongs to which engine.
 PACKAGES = (SERVER, "libcgal-dev", "libtbb-dev", "libtet1.[0-9]", "libqhull-r8.[0-9]", f"{SERVER}-postgis-3", "libgeos[0-9]*",
-            "python3-scipy", "python3-matplotlib", "python3-vtk9", "gdal-bin", "libp4est-dev")
+            "python3-scipy", "python3-matplotlib", "python3-vtk9", "gdal-bin", "libp4est-dev", "metis")
 
 
 class LeftOut(Exception):

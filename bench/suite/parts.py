@@ -16,6 +16,7 @@ from octrees import Octrees
 from rasters import Raster
 from regions import Regions
 from rows import Rows
+from shares import Shares
 from shared_reading import SharedLoading, SharedReading
 from surfaces import Surfaces
 from terrain import Terrain
@@ -94,6 +95,8 @@ PARTS = [
         {"full": 4096, "quick": 512, "smoke": 64}).measure),
     Part("detail", "six levels of detail beside the build of their mesh, and tiles of terrain of triangles", 10, Detail(
         {"full": (1000000, 10000000), "quick": (100000, 1000000), "smoke": (5000,)}).measure),
+    Part("shares", "a mesh cut for the ranks of a parallel program, beside METIS; shares, and steps of a solution", 10, Shares(
+        {"full": 0.25, "quick": 0.1, "smoke": 0.02}).measure),
     Part("carried", "windows of a foreign table, tiles of web maps, facets with markers, files", 5, Carried(
         {"full": (1000000, 800000), "quick": (100000, 50000), "smoke": (5000, 500)}, FEWER).measure),
     Part("octree", "octrees of points: made, balanced, extracted, asked, beside p4est", 8, Octrees(

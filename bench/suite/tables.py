@@ -67,7 +67,8 @@ def octrees(results):
     return table(("step", "", "rows", "wall", "CPU", "bytes an octant", "runs"), rows)
 
 
-ENGINES = {"abacus": "Abacus", "scipy": "SciPy", "matplotlib": "matplotlib", "gdal": "gdal_grid"}
+ENGINES = {"abacus": "Abacus", "scipy": "SciPy", "matplotlib": "matplotlib", "gdal": "gdal_grid", "delatin": "delatin",
+           "metis": "gpmetis", "copy": "COPY"}
 
 
 def asking(results):

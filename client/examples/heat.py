@@ -7,94 +7,31 @@ Solves u' = Δu for linear finite elements, implicitly, with PETSc. The mesh is 
 sin(πx) sin(πy) [sin(πz)] at first, so that it is known at all times: it decays by exp(-dπ²t). After REFINED steps the mesh gets points where u bends
 most, and is cut anew. Rank 0 prints the greatest error of each step. Connection options come from the environment, as for psql.
 """
-import glob
 import math
 import os
-import pathlib
 import subprocess
 import sys
 
 import numpy
-import scipy.sparse
 
-sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[1]))
-if "PETSC_DIR" not in os.environ:  # Debian sets it where libpetsc-real-dev is installed
-    os.environ["PETSC_DIR"] = next(iter(glob.glob("/usr/lib/petscdir/petsc*/*-real")), "")
-    sys.path.append(os.path.join(os.environ["PETSC_DIR"], "lib/python3/dist-packages"))
-
-import abacus_share
+from ranks import Elements, abacus_share, ask_owners, read
 from mpi4py import MPI
-from petsc4py import PETSc
 
 STEP = 0.002  # time
 
 
-def read(comm, mesh):
-    """The rank's share; all ranks read one snapshot, which rank 0 keeps until they have."""
-    if comm.rank == 0:
-        with abacus_share.Snapshot() as snapshot:
-            comm.bcast(snapshot.name)
-            share = snapshot.share(mesh, comm.size, 0)
-            comm.barrier()
-            return share
-    with abacus_share.Snapshot(name=comm.bcast(None)) as snapshot:
-        share = snapshot.share(mesh, comm.size, comm.rank)
-        comm.barrier()
-        return share
-
-
-def ask_owners(comm, share, answer):
-    """answer(local numbers) of the owners, for the vertices of others in the share."""
-    own, others = share.own, range(comm.size)
-    wanted = [share.id[own:][share.owner[own:] == rank] for rank in others]
-    order = numpy.argsort(share.id[:own])
-    asked = [order[numpy.searchsorted(share.id[:own], ids, sorter=order)] if len(ids) else numpy.empty(0, int) for ids in comm.alltoall(wanted)]
-    return numpy.concatenate(comm.alltoall([answer(numbers) for numbers in asked]))  # by owner, as they are in the share
-
-
 class Problem:
-    """The equations of the rank's own vertices; columns have global numbers: first those of rank 0, then of rank 1, and so on."""
+    """The equations of the rank's own vertices."""
 
     def __init__(self, comm, share):
-        self.comm, self.share = comm, share
-        own, dimension = share.own, share.points.shape[1]
-        counts = comm.allgather(own)
-        first = sum(counts[:comm.rank])
-        numbers = numpy.concatenate([numpy.arange(own), ask_owners(comm, share, lambda local: first + local) - first]).astype(int) + first
-        corners = share.simplices
-        edges = share.points[corners[:, 1:]] - share.points[corners[:, :1]]
-        volume = numpy.abs(numpy.linalg.det(edges)) / math.factorial(dimension)
-        rest = numpy.linalg.inv(edges).transpose(0, 2, 1)
-        gradients = numpy.concatenate([-rest.sum(axis=1, keepdims=True), rest], axis=1)
-        stiffness = volume[:, None, None] * (gradients @ gradients.transpose(0, 2, 1))
-        mass = volume[:, None, None] * (1 + numpy.eye(dimension + 1)) / ((dimension + 1) * (dimension + 2))
-        inside = ((share.points > 0) & (share.points < 1)).all(axis=1)
-        row, column = numpy.broadcast_arrays(corners[:, :, None], corners[:, None, :])
-        wanted = (row < own) & inside[row] & inside[column]
-        shape = own, sum(counts)
-
-        def matrix(values, diagonal):
-            border = numpy.flatnonzero(~inside[:own])
-            entries = numpy.concatenate([values[wanted], numpy.full(len(border), diagonal)])
-            rows, columns = numpy.concatenate([row[wanted], border]), numpy.concatenate([numbers[column[wanted]], numbers[border]])
-            part = scipy.sparse.csr_matrix((entries, (rows, columns)), shape)
-            part.sort_indices()
-            indices = part.indptr.astype(PETSc.IntType), part.indices.astype(PETSc.IntType)
-            return PETSc.Mat().createAIJ(((own, shape[1]), (own, shape[1])), csr=(*indices, part.data), comm=comm)
-
-        self.mass = matrix(mass, 0)
-        self.solver = PETSc.KSP().create(comm)
-        self.solver.setType("cg")
-        self.solver.getPC().setType("jacobi")
-        self.solver.setTolerances(rtol=1e-13)
-        self.solver.setOperators(matrix(mass + STEP * stiffness, 1))
+        self.elements = Elements(comm, share)
+        border = ~((share.points > 0) & (share.points < 1)).all(axis=1)
+        self.mass = self.elements.matrix(self.elements.mass, border)
+        self.solver = self.elements.solver(self.elements.matrix(self.elements.mass + STEP * self.elements.stiffness, border, 1))
 
     def advance(self, u):
         """One step of implicit Euler."""
-        right, solution = self.mass.createVecLeft(), self.mass.createVecRight()
-        self.mass.mult(PETSc.Vec().createWithArray(u, comm=self.comm), right)
-        self.solver.solve(right, solution)
-        return solution.getArray().copy()
+        return self.elements.solve(self.solver, self.elements.times(self.mass, u))
 
 
 def exact(points, time):

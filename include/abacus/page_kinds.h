@@ -24,7 +24,7 @@ enum
 	/*
 	 * Values of vertices at a step of a solution: rows of an id and so many doubles. These can only be
 	 * found, by {id as unsigned, 0}: a page has the row of this id first, and rows stored beside it.
-	 * There is none without the row.
+	 * Without the row there is none, or one that begins with another.
 	 */
 	ABACUS_STEP_PAGES
 };

@@ -7,8 +7,8 @@
 #include <abacus/shares.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <map>
-#include <numeric>
 #include <set>
 
 namespace abacus::test {
@@ -382,7 +382,7 @@ TYPED_TEST(SharesOf, Weights) {
         // a mean may be 0 though its parts are not; missing ones count as 0
         const bool none = random() % 5 == 0;
         value[p.id] = none ? 0 : static_cast<double>(random() % 1000);
-        p.attributes = {none ? null_value : value[p.id], -1};
+        p.attributes = {none ? double(NAN) : value[p.id], -1};
     }
     MeshOf<D> mesh(2);
     ASSERT_EQ(mesh.insert(points), ABACUS_OK);

@@ -55,11 +55,12 @@ private:
     }
     void read(std::int64_t id) {
         abacus_page page{};
-        if (!host_.find(ABACUS_STEP_PAGES, {static_cast<std::uint64_t>(id), 0}, page)) {
+        if (!host_.find(ABACUS_STEP_PAGES, {static_cast<std::uint64_t>(id), 0}, page) ||
+            page.size < row_bytes() || std::memcmp(page.bytes, &id, sizeof id) != 0) {
             std::fill_n(take(id), values_, NAN);
             return;
         }
-        // the first is the one asked for; it comes last, and so it stays
+        // the first is the one asked for; it is taken last, and so it stays
         for (std::size_t at = page.size / row_bytes() * row_bytes(); at > 0;) {
             at -= row_bytes();
             std::int64_t other;
