@@ -56,6 +56,11 @@ SELECT pg_temp.inject('growing', $$ SELECT abacus_triangulate('field') $$,
     $$ SELECT (SELECT count(*) FROM abacus_simplices('field')) = (SELECT count(*) FROM abacus_simplices('made')) $$);
 SELECT is_empty($$ SELECT * FROM abacus_check('field') $$, 'the grown mesh is sound');
 
+-- a step in place of attributes
+SELECT isnt(abacus_store('made', 1, 1, 0, 'SELECT id, x FROM abacus_share_vertices(''made'', 1, 0, 0)'), NULL, 'a step');
+SELECT pg_temp.inject('a picture of a step', $$ SELECT abacus_draw('made', 50, step => 1) $$, 'SELECT true');
+SELECT pg_temp.inject('values of a step', $$ SELECT count(*) FROM abacus_interpolate('made', 'SELECT id, x + 0.1, y FROM points WHERE id <= 50', step => 1) $$, 'SELECT true');
+
 -- octrees
 SELECT isnt(abacus_octree_create('tree', 2, '{0,0}', '{1009,1009}', '{v}'), NULL, 'an octree');
 SELECT pg_temp.inject('an octree from points', $$ SELECT abacus_octree_from_points('tree', 'SELECT id, x, y FROM points', 1) $$,

@@ -9,6 +9,7 @@ SELECT isnt(abacus_triangulate('space', 'SELECT id, x, y, z FROM points', dimens
 SELECT isnt(abacus_triangulate('space_same', 'SELECT id, x, y, z, u, w FROM solution', '{1,2}', dimension => 3), NULL, 'with the solution');
 CREATE FUNCTION pg_temp.store(mesh regclass, step bigint, parts int, wanted text DEFAULT 'u, w') RETURNS bigint LANGUAGE sql AS
     $$ SELECT sum(abacus_store(mesh, step, parts, p, format('SELECT v.id, %s FROM abacus_share_vertices(%L, %s, %s, 0) AS v JOIN solution AS s USING (id) WHERE owner = %s ORDER BY local', wanted, mesh, parts, p, p)))::bigint FROM generate_series(0, parts - 1) AS p $$;
+CREATE FUNCTION pg_temp.plan(query text) RETURNS SETOF text LANGUAGE plpgsql AS $$ BEGIN RETURN QUERY EXECUTE 'EXPLAIN (COSTS OFF) ' || query; END $$;
 SELECT is(pg_temp.store('plane', 1, 3), 501::bigint, 'a step of the plane');
 SELECT is(pg_temp.store('plane', -2, 2, '1'), 501::bigint, 'one with a single value');
 SELECT is(pg_temp.store('space', 1, 4), 501::bigint, 'a step of the space');
@@ -40,6 +41,16 @@ SET LOCAL work_mem = '64kB';
 SELECT results_eq($$ SELECT * FROM abacus_interpolate('plane', 'SELECT n, x, y FROM places', step => 1) ORDER BY id $$, $$ SELECT * FROM abacus_interpolate('plane_same', 'SELECT n, x, y FROM places') ORDER BY id $$, 'with little memory');
 RESET work_mem;
 RESET abacus.cache_size;
+
+-- by parallel workers
+SET LOCAL parallel_setup_cost = 0;
+SET LOCAL parallel_tuple_cost = 0;
+SET LOCAL min_parallel_table_scan_size = 0;
+SELECT matches((SELECT string_agg(line, ' ') FROM pg_temp.plan('SELECT max(abacus_interpolate(''plane'', x, y, ''1'', step => 1)) FROM places') AS line), 'Gather', 'workers take part');
+SELECT is((SELECT max(abacus_interpolate('plane', x, y, '1', step => 1)) FROM places), (SELECT max(abacus_interpolate('plane_same', x, y, '1')) FROM places), 'with the same values');
+RESET parallel_setup_cost;
+RESET parallel_tuple_cost;
+RESET min_parallel_table_scan_size;
 
 -- pictures and tiles, byte for byte
 SELECT is(md5(abacus_draw('plane_same', 200, attribute => '1', step => 1)), md5(abacus_draw('plane_same', 200, attribute => '1')), 'a picture');
