@@ -261,9 +261,9 @@ SELECT pg_temp.inject('isosurface', $$ SELECT count(*) FROM abacus_isosurface('w
     $$ SELECT NOT EXISTS (SELECT FROM abacus_progress WHERE pid = pg_backend_pid()) $$);
 RESET work_mem;
 
--- only the locks of a transaction that has read and written are held
-SELECT is_empty($$ SELECT locktype, mode FROM pg_locks
-                   WHERE pid = pg_backend_pid() AND locktype NOT IN ('relation', 'virtualxid', 'transactionid', 'object') $$, 'no other lock');
+-- only the locks of a transaction that has read and written are held, and that of the part of a step that it has stored
+SELECT set_eq($$ SELECT locktype, mode, objsubid FROM pg_locks
+                 WHERE pid = pg_backend_pid() AND locktype NOT IN ('relation', 'virtualxid', 'transactionid', 'object') $$, $$ VALUES ('advisory', 'ExclusiveLock', 3::smallint) $$, 'no other lock');
 SELECT is((SELECT count(*) FROM pg_cursors WHERE name LIKE '<unnamed%'), 0::bigint, 'no portal');
 SELECT is((SELECT count(*) FROM pg_backend_memory_contexts WHERE name IN ('Abacus host', 'Abacus core', 'Abacus error') AND level > 4), 0::bigint, 'no memory of failed calls');
 
