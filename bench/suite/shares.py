@@ -35,7 +35,7 @@ class Shares:
         server.drop("mesh", "mesh_vertices", "points")
 
     def record(self, question, engine, samples, **more):
-        self.suite.measurements.append({"what": "ask", "engine": engine, "points": self.points, "question": f"earthquake model, {RANKS} parts: {question}",
+        self.suite.measurements.append({"what": "share", "engine": engine, "points": self.points, "question": question,
                                         "samples": samples, **more})
         sample = min(samples, key=lambda sample: sample["wall"])
         facets = f", {sample['facets']} facets between parts" if "facets" in sample else ""
@@ -49,7 +49,7 @@ class Shares:
                 samples.append(session.timed(f"SELECT sum(cut_facets) / 2 FROM abacus_partition('mesh', {RANKS})"))
         for sample in samples:
             sample["facets"] = int(float(sample.pop("printed")))
-        self.record("cut", "abacus", samples)
+        self.record("cut in four", "abacus", samples)
 
     def metis(self):
         """The graph of neighbours, in a file, cut by gpmetis."""
@@ -77,7 +77,7 @@ class Shares:
                 seconds = next(line for line in done.splitlines() if "Partitioning:" in line).split()[1]
                 part = numpy.loadtxt(f"{folder}/graph.part.{RANKS}", dtype=int)
                 samples.append({"wall": float(seconds), "facets": int((part[first] != part[second]).sum())})
-            self.record("cut, without reading the graph", "metis", samples)
+            self.record("cut in four, without reading the graph", "metis", samples)
 
     def shares(self):
         """All ranks at once, each in a session of its own; beside them a reading of all rows of the mesh."""
@@ -114,11 +114,11 @@ class Shares:
             session.run("CREATE TEMP TABLE solution AS SELECT id, x AS a, y AS b, z AS c, x + y AS d FROM abacus_share_vertices('mesh', 1, 0, 0) ORDER BY local")
             for step in range(self.runs):
                 samples.append(session.timed(f"SELECT abacus_store('mesh', {step}, 1, 0, 'TABLE solution')"))
-            self.record("a step of four values stored, in one part", "abacus", samples, places=4 * self.points)
+            self.record("a step of four values stored, in one part", "abacus", samples, values=4 * self.points)
             middle = server.query("SELECT format('%s,%s,%s', (min(x) + max(x)) / 2, (min(y) + max(y)) / 2, min(z) / 3) FROM points")
             for what, step in ("a section drawn of the attribute", "attribute => 'vs'"), ("a section drawn of a step", "attribute => '1', step => 0"):
                 self.record(what, "abacus", [session.timed(f"SELECT length(abacus_draw_section('mesh', '{{{middle}}}', '{{0,0,1}}', {step}))") for _ in range(self.runs)])
             places = "SELECT i, x, y, z FROM (SELECT row_number() OVER () AS i, x, y, z FROM points LIMIT 100000) AS p"
-            for what, step in ("values of the attribute", "'vs'"), ("values of a step", "'1', step => 0"):
+            for what, step in ("values of the attribute at places", "'vs'"), ("values of a step at places", "'1', step => 0"):
                 self.record(what, "abacus", [session.timed(f"SELECT count(*) FROM abacus_interpolate('mesh', '{places}', {step})") for _ in range(self.runs)],
-                            places=min(100000, self.points))
+                            values=min(100000, self.points))

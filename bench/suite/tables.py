@@ -83,6 +83,17 @@ def asking(results):
     return table(("question", "", "wall", "CPU", "places a second", "pages", "MB a second", "runs"), rows)
 
 
+def shares(results):
+    """Parts of a mesh beside METIS, shares, and steps of a solution."""
+    rows = []
+    for m in results.all(what="share"):
+        wall, facets = spread_of(m, "wall"), values(m, "facets")
+        rows.append((f"{points(m['points'])} points: {m['question']}", ENGINES[m["engine"]], f"{spread(wall)} s",
+                     f"{number(statistics.median(values(m, 'cpu')))} s" if values(m, "cpu") else "–",
+                     number(m["values"] / wall[0]) if "values" in m else "–", f"{statistics.median(facets):,}" if facets else "–", len(m["samples"])))
+    return table(("what", "", "wall", "CPU", "values a second", "facets between parts", "runs"), rows)
+
+
 def rate(measurement):
     """Megabytes of a file a second of elapsed time."""
     return statistics.median(sample["bytes"] / sample["wall"] for sample in measurement["samples"]) / 1e6

@@ -70,8 +70,8 @@ typedef abacus_host_status (*abacus_share_simplex_report)(void *context,
 														  const abacus_share_simplex *simplex);
 
 /*
- * A handle keeps the last cut, which takes one pass over the pages. Sorting takes at most `memory`
- * bytes, beyond that spools. Parts are the same whatever the pages: simplices are in the order of
+ * A handle keeps the last cut, which takes one pass over the pages, and at most `memory` bytes for the parts: an error
+ * (limit) if there are too many. Sorting takes at most as many, beyond that spools. Parts are the same whatever the pages: simplices are in the order of
  * their keys, then of their corners, and one belongs to the part in which its middle lies.
  */
 ABACUS_API abacus_status abacus_mesh_parts(abacus_mesh *mesh, const abacus_cut *cut, size_t memory,

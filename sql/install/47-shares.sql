@@ -13,7 +13,7 @@ RETURNS SETOF record
 AS 'MODULE_PATHNAME', 'abacus_sql_partition'
 LANGUAGE C STABLE PARALLEL SAFE COST 10000 ROWS 10;
 COMMENT ON FUNCTION abacus_partition(regclass, integer, text) IS
-    'cuts a mesh into parts, stretches of the curve with equal numbers of simplices, and shows their sizes. Nothing is moved or stored. Shapes: parts from 0 to parts - 1; vertices and simplices of the part''s own, facets between its own simplices and those of others, others'' simplices that share a vertex with its own. Units: weight names an attribute, of which a simplex has the mean of its corners, or a label; parts then have equal sums, and NULL counts as 0. Errors: 22023 parts below 1, a negative weight, 42703 no such attribute or label, 42809 not a mesh, 53400 no room for temporary files';
+    'cuts a mesh into parts, stretches of the curve with equal numbers of simplices, and shows their sizes. Nothing is moved or stored. Shapes: parts from 0 to parts - 1; vertices and simplices of the part''s own, facets between its own simplices and those of others, others'' simplices that share a vertex with its own. Units: weight names an attribute, of which a simplex has the mean of its corners, or a label; parts then have equal sums, and NULL counts as 0. Errors: 22023 parts below 1, a negative weight, 42703 no such attribute or label, 42809 not a mesh, 53400 no room for temporary files, 54000 more parts than work_mem has room for';
 
 CREATE FUNCTION abacus_share_vertices(
     mesh regclass,
@@ -32,7 +32,7 @@ RETURNS SETOF record
 AS 'MODULE_PATHNAME', 'abacus_sql_share_vertices'
 LANGUAGE C STABLE PARALLEL SAFE COST 10000 ROWS 10000;
 COMMENT ON FUNCTION abacus_share_vertices(regclass, integer, integer, integer, text) IS
-    'the vertices of one part of a mesh and of layers of simplices around it, in the order of their local numbers. Shapes: local from 0, the part''s own first, then by owner, along the curve; the owner of a vertex is the least part that has a simplex at it; attributes in the order of the mesh. Units: halo in layers, each of all simplices that share a vertex with what is there. Errors: 22023 parts, part or halo out of range, a negative weight, 42703 no such attribute or label, 42809 not a mesh, 53400 no room for temporary files';
+    'the vertices of one part of a mesh and of layers of simplices around it, in the order of their local numbers. Shapes: local from 0, the part''s own first, then by owner, along the curve; the owner of a vertex is the least part that has a simplex at it; attributes in the order of the mesh. Units: halo in layers, each of all simplices that share a vertex with what is there. Errors: 22023 parts, part or halo out of range, a negative weight, 42703 no such attribute or label, 42809 not a mesh, 53400 no room for temporary files, 54000 more parts than work_mem has room for';
 
 CREATE FUNCTION abacus_share_simplices(
     mesh regclass,

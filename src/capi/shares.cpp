@@ -12,11 +12,12 @@ using namespace abacus;
 
 /// The mesh's last cut, if it is this one, else a new one, which the handle keeps.
 template <int D>
-const Cut<D> &cut_of(abacus_mesh &mesh, const abacus_facts &facts, const abacus_cut &cut) {
+const Cut<D> &cut_of(abacus_mesh &mesh, const abacus_facts &facts, const abacus_cut &cut,
+                     std::size_t memory) {
     auto &kept = std::get<D - 2>(mesh.cuts);
     if (!kept || !kept->is_same(cut)) {
         kept.reset();
-        kept.emplace(mesh.host, facts, cut);
+        kept.emplace(mesh.host, facts, cut, memory);
     }
     return *kept;
 }
@@ -26,7 +27,7 @@ template <int D, class Use>
 void use_share(abacus_mesh &mesh, const abacus_facts &facts, const abacus_share &share,
                std::size_t memory, Use use) {
     if (facts.census.simplices == 0) return;
-    const Cut<D> &cut = cut_of<D>(mesh, facts, share.cut);
+    const Cut<D> &cut = cut_of<D>(mesh, facts, share.cut, memory);
     const auto own = cut.piece_of(share.part);
     if (!own) return;
     Share<D> made(mesh.host, facts, cut, *own, share.halo, memory);
@@ -68,7 +69,8 @@ abacus_status abacus_mesh_parts(abacus_mesh *mesh, const abacus_cut *cut, size_t
         const auto visit = [&](const abacus_part &part) { host::require(report(context, &part)); };
         const abacus_facts &facts = reader.facts();
         if (facts.census.simplices > 0)
-            return part_sizes<D>(mesh->host, facts, cut_of<D>(*mesh, facts, *cut), memory, visit);
+            return part_sizes<D>(mesh->host, facts, cut_of<D>(*mesh, facts, *cut, memory), memory,
+                                 visit);
         for (std::uint32_t part = 0; part < cut->parts; ++part) {
             if (part % Pacer::stride == 0) mesh->host.poll();
             abacus_part none{};

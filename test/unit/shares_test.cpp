@@ -442,12 +442,19 @@ TEST(SharesOfMany, PartsCanBeCancelled) {
     MeshOf<2> mesh;
     ASSERT_EQ(mesh.insert(number<2>(random_points<2>(30, 1))), ABACUS_OK);
     const abacus_cut many{0x7fffffff, ABACUS_WEIGHT_ONE, 0};
-    Parted<2> parted(mesh);
     std::vector<Vertex> vertices;
+    {
+        Parted<2> small(mesh, 1 << 10);
+        EXPECT_EQ(small.vertices({many, 3, 1}, vertices), ABACUS_ERROR);
+        EXPECT_EQ(small.error.kind, ABACUS_ERROR_LIMIT) << small.error.message;
+        EXPECT_EQ(small.vertices({equal_parts(3), 0, 1}, vertices), ABACUS_OK);
+        vertices.clear();
+    }
+    Parted<2> parted(mesh);
     EXPECT_EQ(parted.vertices({many, 0x7ffffffe, 1}, vertices), ABACUS_OK);
     EXPECT_TRUE(vertices.empty());
     std::uint64_t seen = 0;
-    const std::pair<MemoryHost *, std::uint64_t *> context{&mesh.host, &seen};
+    std::pair<MemoryHost *, std::uint64_t *> context{&mesh.host, &seen};
     abacus_error error{};
     abacus_mesh *handle = nullptr;
     ASSERT_EQ(abacus_mesh_open(mesh.host.table(), &mesh.header.facts, ample, &handle, &error),
@@ -455,12 +462,11 @@ TEST(SharesOfMany, PartsCanBeCancelled) {
     EXPECT_EQ(abacus_mesh_parts(
                   handle, &many, ample,
                   [](void *to, const abacus_part *) {
-                      const auto &[host, count] =
-                          *static_cast<const std::pair<MemoryHost *, std::uint64_t *> *>(to);
+                      auto &[host, count] = *static_cast<decltype(context) *>(to);
                       if (++*count == 1000) host->cancel();
                       return ABACUS_HOST_OK;
                   },
-                  const_cast<std::pair<MemoryHost *, std::uint64_t *> *>(&context), &error),
+                  &context, &error),
               ABACUS_HOST_ERROR);
     EXPECT_LT(seen, 10000u);
     abacus_mesh_close(handle);

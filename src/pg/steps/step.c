@@ -1,10 +1,10 @@
 /*
  * step.c: a step of a solution, whose values are read in place of the attributes of a mesh.
  *
- * Values are found by the id of their vertex, by queries of the table of steps, so with the caller's
- * privileges and what the active snapshot sees. Parts are stored in the order of their
- * vertices along the curve. So the rows in the block of a row are near it in space, and the core gets all of
- * them together, like a page. It keeps no more of them than it has room for.
+ * Values are found by the id of their vertex, by queries of the table of steps, so with the caller's privileges
+ * and what the active snapshot sees. Ranks store parts as they got their shares, along the curve. So the rows in
+ * the block of a row are near it in space, and the core gets all of them together, like a page. It keeps no more
+ * of them than it has room for.
  *
  * Queries have operators with their schema: they are planned once, and the search path may change.
  */
@@ -20,7 +20,6 @@
 #include "miscadmin.h"
 #include "utils/array.h"
 #include "utils/builtins.h"
-#include "utils/builtins.h"
 #include "utils/lsyscache.h"
 #include "utils/memutils.h"
 #include "utils/snapmgr.h"
@@ -28,7 +27,6 @@
 #include "pg/base/snapshot_mark.h"
 #include "pg/lines/named_rows.h"
 #include "pg/mesh/lines_table.h"
-#include "pg/port/port.h"
 #include "pg/steps/step.h"
 
 struct Step

@@ -75,9 +75,17 @@ private:
 } // namespace
 
 template <int D>
-Cut<D>::Cut(const Host &host, const abacus_facts &facts, const abacus_cut &cut)
+Cut<D>::Cut(const Host &host, const abacus_facts &facts, const abacus_cut &cut, std::size_t memory)
     : host_(host), facts_(facts), cut_(cut), domain_(domain_of<D>(facts.form)),
       weight_(std::in_place, host, facts, cut), pieces_(host), placed_(host) {
+    const std::uint64_t most = std::min<std::uint64_t>(cut.parts, facts.census.simplices);
+    if (most * (sizeof(Piece) + sizeof(abacus_part)) > memory)
+        throw Error(ABACUS_ERROR_LIMIT,
+                    "the memory of a query is too small for " + std::to_string(cut.parts) +
+                        " parts",
+                    "What is known of " + std::to_string(most) + " parts takes " +
+                        std::to_string(most * (sizeof(Piece) + sizeof(abacus_part)) >> 10) + " kB.",
+                    "Cut the mesh into fewer parts, or increase work_mem.");
     const bool is_weighed = cut.weight != ABACUS_WEIGHT_ONE;
     const std::size_t words = PageSum::words(is_weighed);
     RecordSpool spool(host, words);

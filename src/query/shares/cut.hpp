@@ -10,6 +10,9 @@
 // not known before they have all been read; so the sum of each page goes to a spool, and the pages
 // in which parts begin are read once more. The pass also collects the boxes of the pages, by which
 // shares find the pages around them.
+//
+// Where parts begin is kept in memory, so there cannot be more of them than the memory of a query
+// holds.
 #pragma once
 
 #include "geometry/exact_sum.hpp"
@@ -35,8 +38,8 @@ public:
         std::size_t first, last;
     };
 
-    /// Of a mesh that is not empty.
-    Cut(const Host &host, const abacus_facts &facts, const abacus_cut &cut);
+    /// Of a mesh that is not empty. Throws if there are too many parts for so many bytes.
+    Cut(const Host &host, const abacus_facts &facts, const abacus_cut &cut, std::size_t memory);
 
     bool is_same(const abacus_cut &cut) const {
         return cut.parts == cut_.parts && cut.weight == cut_.weight &&
