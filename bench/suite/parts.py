@@ -95,7 +95,7 @@ PARTS = [
         {"full": 4096, "quick": 512, "smoke": 64}).measure),
     Part("detail", "six levels of detail beside the build of their mesh, and tiles of terrain of triangles", 10, Detail(
         {"full": (1000000, 10000000), "quick": (100000, 1000000), "smoke": (5000,)}).measure),
-    Part("shares", "a mesh cut for the ranks of a parallel program, beside METIS; shares, and steps of a solution", 10, Shares(
+    Part("shares", "a mesh cut for the ranks of a parallel program, beside METIS; shares, and steps of a solution", 3, Shares(
         {"full": 0.25, "quick": 0.1, "smoke": 0.02}).measure),
     Part("carried", "windows of a foreign table, tiles of web maps, facets with markers, files", 5, Carried(
         {"full": (1000000, 800000), "quick": (100000, 50000), "smoke": (5000, 500)}, FEWER).measure),

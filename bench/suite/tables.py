@@ -87,11 +87,11 @@ def shares(results):
     """Parts of a mesh beside METIS, shares, and steps of a solution."""
     rows = []
     for m in results.all(what="share"):
-        wall, facets = spread_of(m, "wall"), values(m, "facets")
-        rows.append((f"{points(m['points'])} points: {m['question']}", ENGINES[m["engine"]], f"{spread(wall)} s",
+        facets = values(m, "facets")
+        rows.append((f"{points(m['points'])} points: {m['question']}", ENGINES[m["engine"]], f"{spread(spread_of(m, 'wall'))} s",
                      f"{number(statistics.median(values(m, 'cpu')))} s" if values(m, "cpu") else "–",
-                     number(m["values"] / wall[0]) if "values" in m else "–", f"{statistics.median(facets):,}" if facets else "–", len(m["samples"])))
-    return table(("what", "", "wall", "CPU", "values a second", "facets between parts", "runs"), rows)
+                     number(m["values"] / statistics.median(values(m, "cpu"))) if "values" in m else "–", f"{statistics.median(facets):,}" if facets else "–", len(m["samples"])))
+    return table(("what", "", "wall", "CPU", "values a second of CPU", "facets between parts", "runs"), rows)
 
 
 def rate(measurement):
