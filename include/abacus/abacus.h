@@ -17,6 +17,7 @@
  *   constrain.h, regions.h, extent.h, area.h    fixed edges, regions between them, questions within
  *   draw.h, raycast.h, tile.h                   pictures
  *   octree.h, octree_ask.h                      octrees
+ *   shards.h                                    one mesh over several servers
  *   check.h                                     verification
  *   facts.h, standing.h                         what is known of a mesh, but for its names
  *   mesh_header.h, mesh_counters.h              all that is known of it; what has been done with it
@@ -63,6 +64,7 @@
 #include "abacus/regions.h"
 #include "abacus/scan.h"
 #include "abacus/shapes.h"
+#include "abacus/shards.h"
 #include "abacus/shares.h"
 #include "abacus/simplex.h"
 #include "abacus/standing.h"

@@ -3,6 +3,7 @@
 #include "keys/domain_of.hpp"
 
 #include <algorithm>
+#include <bit>
 
 namespace abacus {
 

@@ -18,8 +18,8 @@
 
 #include "geometry/box.hpp"
 #include "host/arena.hpp"
+#include "points/point_hash.hpp"
 
-#include <bit>
 #include <cstdint>
 
 namespace abacus {
@@ -31,9 +31,11 @@ public:
     /// With canonical coordinates (no -0.0).
     void add(const Point<D> &p) {
         box_.extend(p);
-        const std::uint64_t hash = hash_of(p);
+        const std::uint64_t hash = point_hash(p);
         if (hash < least_excluded_) add({hash, p});
     }
+    /// Points of which only the box is known, and those of their sample, which are added besides.
+    void extend(const Box<D> &box) { box_.extend(box); }
     void add(const Spread &other) {
         box_.extend(other.box_);
         for (const Drawn &drawn : other.sample_)
@@ -68,16 +70,6 @@ private:
     void cut();
     std::size_t misplaced_by(const Box<D> &box);
     Box<D> all_but(std::size_t few, const Arena<double> &sorted) const;
-
-    static std::uint64_t hash_of(const Point<D> &p) {
-        std::uint64_t h = 0x13198a2e03707344; // digits of pi
-        for (int i = 0; i < D; ++i) {
-            h = (h ^ std::bit_cast<std::uint64_t>(p[i])) * 0x9e3779b97f4a7c15;
-            h ^= h >> 32;
-        }
-        h *= 0xd6e8feb86659fd93;
-        return h ^ h >> 32;
-    }
 
     const Host &host_;
     Box<D> box_;

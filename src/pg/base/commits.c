@@ -10,7 +10,7 @@
 
 /*
  * Refuses a call of a procedure that may not commit, before SPI_commit() would find that it may not. `step` is
- * what it commits; `function` does the same in one transaction.
+ * what it commits; `function` does the same in one transaction, if there is one.
  */
 void
 require_commits(FunctionCallInfo fcinfo, const char *procedure, const char *step, const char *function)
@@ -23,6 +23,8 @@ require_commits(FunctionCallInfo fcinfo, const char *procedure, const char *step
 				(errcode(ERRCODE_INVALID_TRANSACTION_TERMINATION),
 				 errmsg("%s() cannot commit here", procedure),
 				 errdetail("It ends a transaction after each %s.", step),
-				 errhint("CALL it outside transaction blocks, functions and exception blocks, or "
-						 "use %s().", function)));
+				 function == NULL
+				 ? errhint("CALL it outside transaction blocks, functions and exception blocks.")
+				 : errhint("CALL it outside transaction blocks, functions and exception blocks, or "
+						   "use %s().", function)));
 }

@@ -219,6 +219,8 @@ change_insert(Change *change)
 	abacus_header *header = change->writer.header;
 
 	host_run(host, abacus_stage_end, change->stage, &header->facts);
+	if (change->keeps_domain)
+		header->facts.census.outside = 0;
 	change_open_build(change);
 	note_ids(change);
 	host_run(host, abacus_build_insert, change->build, change->stage, change->on_duplicate,

@@ -23,6 +23,7 @@ typedef struct Change
 	abacus_on_duplicate on_duplicate;
 	uint64		duplicates;		/* of the mesh before the change */
 	bool		may_replace;	/* the user can choose 'replace' */
+	bool		keeps_domain;	/* that of a mesh over several servers */
 	bool		inserts;
 	bool		holds;			/* labels and markers, until its end */
 	bool		returns;		/* which simplices it creates and removes */

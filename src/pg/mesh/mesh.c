@@ -115,6 +115,42 @@ TABLE_TEST(is_regions_table, RELKIND_RELATION, REGION_PART_TYPE)
 TABLE_TEST(is_thinning_table, RELKIND_RELATION, THINNING_TYPE)
 TABLE_TEST(is_steps_table, RELKIND_PARTITIONED_TABLE, STEP_VALUES_TYPE)
 TABLE_TEST(is_levels_table, RELKIND_RELATION, LEVEL_TYPE)
+TABLE_TEST(is_generations_table, RELKIND_RELATION, SHARD_GENERATION_TYPE)
+
+/* Whether this is the coordinator's table of a mesh over several servers. */
+bool
+mesh_is_sharded(Oid relid)
+{
+	return is_generations_table(relid);
+}
+
+/* Raises an error unless it is one. */
+void
+mesh_require_sharded(Oid relid)
+{
+	if (!mesh_is_sharded(relid))
+		ereport(ERROR,
+				(errcode(ERRCODE_WRONG_OBJECT_TYPE),
+				 errmsg("\"%s\" is not a mesh over several servers", get_rel_name(relid)),
+				 errhint("Make one with abacus_shard_create().")));
+}
+
+/* The table is not one of simplices. */
+static void
+refuse_table(Relation rel)
+{
+	if (mesh_is_sharded(RelationGetRelid(rel)))
+		ereport(ERROR,
+				(errcode(ERRCODE_FEATURE_NOT_SUPPORTED),
+				 errmsg("this function does not work on mesh \"%s\", which lies on several servers",
+						RelationGetRelationName(rel)),
+				 errhint("docs/distributed.md lists the functions that do. The others work on the mesh of each "
+						 "server, see abacus_shards().")));
+	ereport(ERROR,
+			(errcode(ERRCODE_WRONG_OBJECT_TYPE),
+			 errmsg("\"%s\" is not a mesh", RelationGetRelationName(rel)),
+			 errhint("Make a mesh with abacus_create() or abacus_triangulate().")));
+}
 
 /* Opens the table of a mesh under the given lock, or says why it cannot be used. */
 static Relation
@@ -128,10 +164,7 @@ open_mesh_table(Oid relid, MeshAccess access, LOCKMODE lock)
 				 errmsg("mesh with OID %u does not exist", relid)));
 	if (rel->rd_rel->relkind != RELKIND_RELATION ||
 		!is_row_type(rel->rd_rel->reloftype, SIMPLEX_PAGE_TYPE, &simplex_row_type))
-		ereport(ERROR,
-				(errcode(ERRCODE_WRONG_OBJECT_TYPE),
-				 errmsg("\"%s\" is not a mesh", RelationGetRelationName(rel)),
-				 errhint("Make a mesh with abacus_create() or abacus_triangulate().")));
+		refuse_table(rel);
 	mesh_check_access(rel, access, NULL);
 	return rel;
 }

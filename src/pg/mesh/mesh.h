@@ -26,6 +26,8 @@
 #define LEVEL_TYPE "abacus_level"
 #define LEVEL_COLUMNS 6
 #define LEVELS_TABLE_SUFFIX "_levels"
+#define SHARD_GENERATION_TYPE "abacus_shard_generation"
+#define SHARD_GENERATION_COLUMNS 18
 
 /* What a caller intends to do, which decides the lock and the privileges it needs. */
 typedef enum MeshAccess
@@ -58,6 +60,8 @@ extern LockRelId mesh_lock_for_session(Oid relid);
 extern bool mesh_try_lock_for_session(Oid relid, bool vertices, MeshLocks *locks);
 extern void mesh_unlock_for_session(MeshLocks *locks);
 extern Oid	mesh_of_table(Oid relid);
+extern bool mesh_is_sharded(Oid relid);
+extern void mesh_require_sharded(Oid relid);
 extern Oid	mesh_table_owner(Oid relid);
 extern Oid	mesh_find_vertex_table(Oid mesh);
 extern Oid	mesh_find_rows_table(Oid mesh, SideRows rows);

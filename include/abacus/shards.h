@@ -1,0 +1,84 @@
+/*
+ * shards.h: one mesh over several servers: which server owns a place, and what they send each other.
+ */
+#ifndef ABACUS_ABACUS_SHARDS_H
+#define ABACUS_ABACUS_SHARDS_H
+
+#include "abacus/simplex.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* A box; empty where lower is above upper. */
+typedef struct abacus_box
+{
+	double lower[ABACUS_MAX_DIMENSION];
+	double upper[ABACUS_MAX_DIMENSION];
+} abacus_box;
+
+/* ---- The plan ---------------------------------------------------------------- */
+
+/* How many points a survey has at most in its sample. */
+#define ABACUS_SURVEY_POINTS 16384
+
+/*
+ * A survey of points, which becomes the plan for all shards. The facts have the shape of the points,
+ * and the domain if it is given.
+ */
+typedef struct abacus_survey abacus_survey;
+ABACUS_API abacus_status abacus_survey_open(const abacus_host *host, const abacus_facts *facts,
+											abacus_survey **survey, abacus_error *error);
+/* Adds `count` points as in abacus_stage_add. */
+ABACUS_API abacus_status abacus_survey_add(abacus_survey *survey, const uint64_t *points,
+										   size_t count, abacus_error *error);
+/* Adds the result of another survey: `count` points of its sample, `dimension` doubles each. */
+ABACUS_API abacus_status abacus_survey_merge(abacus_survey *survey, uint64_t points,
+											 const abacus_box *box, const double *sample,
+											 size_t count, abacus_error *error);
+/*
+ * The result: the number of points, their box, and the sample, `count` points of `dimension` doubles,
+ * valid until the next call.
+ */
+ABACUS_API abacus_status abacus_survey_result(abacus_survey *survey, uint64_t *points,
+											  abacus_box *box, const double **sample, size_t *count,
+											  abacus_error *error);
+/*
+ * The plan: gives the form the domain that a mesh of all these points would get (none without
+ * points), and writes shards - 1 borders, codes that ascend. Shard i owns the codes from border i - 1
+ * on, up to border i.
+ */
+ABACUS_API abacus_status abacus_survey_plan(abacus_survey *survey, uint32_t shards,
+											abacus_form *form, uint64_t *borders,
+											abacus_error *error);
+ABACUS_API void abacus_survey_close(abacus_survey *survey);
+
+/* The codes of `count` points, `dimension` doubles each, over the domain of a mesh, which has one. */
+ABACUS_API abacus_status abacus_codes(const abacus_form *form, const double *points, size_t count,
+									  uint64_t *codes, abacus_error *error);
+
+/* ---- The exchange ------------------------------------------------------------ */
+
+/*
+ * The vertices of a shard's mesh that other shards need. `extent` contains all points of all shards.
+ * When no shard has anything to send that its receiver does not have, each simplex with a corner of
+ * the shard's own is one of the triangulation of all points; the shard owns those whose code it owns.
+ */
+typedef struct abacus_exports abacus_exports;
+ABACUS_API abacus_status abacus_exports_open(const abacus_host *host, const abacus_facts *facts,
+											 const uint64_t *borders, size_t count, uint32_t shard,
+											 const abacus_box *extent, abacus_exports **exports,
+											 abacus_error *error);
+/*
+ * The next one, and the shard that needs it; ABACUS_END after the last. The same one may come
+ * several times.
+ */
+ABACUS_API abacus_status abacus_exports_next(abacus_exports *exports, uint32_t *shard,
+											 abacus_vertex *vertex, abacus_error *error);
+ABACUS_API void abacus_exports_close(abacus_exports *exports);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,173 @@
+-- One mesh over several servers.
+
+CREATE TYPE abacus_shard_generation AS (
+    generation bigint,
+    phase text,
+    source text,
+    token text,
+    servers text[],
+    dimension integer,
+    attributes text[],
+    lower double precision[],
+    upper double precision[],
+    "least" double precision[],
+    "greatest" double precision[],
+    borders bigint[],
+    points bigint,
+    rounds integer,
+    sent bigint,
+    simplices bigint,
+    names_given boolean,
+    domain_given boolean);
+COMMENT ON TYPE abacus_shard_generation IS
+    'row of the coordinator''s table of a mesh over several servers: what one build has made of it; readers see the newest row whose phase is published';
+COMMENT ON COLUMN abacus_shard_generation.generation IS 'number of the build, from 0';
+COMMENT ON COLUMN abacus_shard_generation.phase IS 'how far it is: new, spread, triangulated or published';
+COMMENT ON COLUMN abacus_shard_generation.source IS 'digest of its queries: a call with the same ones goes on';
+COMMENT ON COLUMN abacus_shard_generation.token IS 'part of the names of its meshes on the servers';
+COMMENT ON COLUMN abacus_shard_generation.servers IS 'foreign servers, one for each shard';
+COMMENT ON COLUMN abacus_shard_generation.dimension IS '2 or 3';
+COMMENT ON COLUMN abacus_shard_generation.attributes IS 'names of the attributes';
+COMMENT ON COLUMN abacus_shard_generation.lower IS 'lower corner of the domain';
+COMMENT ON COLUMN abacus_shard_generation.upper IS 'upper corner of the domain';
+COMMENT ON COLUMN abacus_shard_generation."least" IS 'least coordinates of all points';
+COMMENT ON COLUMN abacus_shard_generation."greatest" IS 'greatest coordinates of all points';
+COMMENT ON COLUMN abacus_shard_generation.borders IS 'locational codes at which the next shard begins';
+COMMENT ON COLUMN abacus_shard_generation.points IS 'points of all shards';
+COMMENT ON COLUMN abacus_shard_generation.rounds IS 'rounds of the exchange in which vertices were sent, and the last one, in which none were';
+COMMENT ON COLUMN abacus_shard_generation.sent IS 'vertices that shards have sent each other';
+COMMENT ON COLUMN abacus_shard_generation.simplices IS 'simplices of the mesh';
+COMMENT ON COLUMN abacus_shard_generation.names_given IS 'whether the names were given when the mesh was created';
+COMMENT ON COLUMN abacus_shard_generation.domain_given IS 'whether the domain was given when the mesh was created';
+
+CREATE FUNCTION abacus_shard_create(
+    mesh text,
+    servers text[],
+    dimension integer DEFAULT 2,
+    attributes text[] DEFAULT NULL,
+    lower double precision[] DEFAULT NULL,
+    upper double precision[] DEFAULT NULL)
+RETURNS regclass
+AS 'MODULE_PATHNAME', 'abacus_sql_shard_create'
+LANGUAGE C VOLATILE PARALLEL UNSAFE;
+COMMENT ON FUNCTION abacus_shard_create(text, text[], integer, text[], double precision[], double precision[]) IS
+    'makes a mesh over several servers, without points: a table of this name, which knows its servers. They are reached by dblink, over foreign servers and user mappings of the caller. Attributes are named after the columns of the query unless names are given. Shapes: servers has a foreign server for each shard; lower and upper are {x, y}, in space {x, y, z}. Units: lower and upper in those of the coordinates. Errors: 42P07 the name is taken, 42704 no such server, 42501 no privilege, 55000 dblink or, on a server, abacus is missing, 08001 no connection, 22023 a bad dimension or domain';
+
+CREATE PROCEDURE abacus_shard_build(mesh regclass, query text)
+AS 'MODULE_PATHNAME', 'abacus_sql_shard_build'
+LANGUAGE C;
+COMMENT ON PROCEDURE abacus_shard_build(regclass, text) IS
+    'triangulates the points of a query over the servers of a mesh. Commits after each phase; called again after a failure, it goes on. Readers see the former points until it ends. Shapes: the query returns id, x, y[, z] and the attributes, by position; it is run twice. Errors: those of abacus_triangulate; 42809 not a mesh over several servers, 42501 not its owner, 2D000 where it cannot commit, 08000 a connection is lost; errors of a server as it reports them';
+
+CREATE PROCEDURE abacus_shard_build(mesh regclass, queries text[])
+AS 'MODULE_PATHNAME', 'abacus_sql_shard_build_each'
+LANGUAGE C;
+COMMENT ON PROCEDURE abacus_shard_build(regclass, text[]) IS
+    'the same with a query for each server, which is run there. Of equal points the first is the vertex, in the order of the queries. Shapes: as many queries as servers, each as above, with coordinates as columns; each is run three times in one snapshot. Errors: as above; 22023 another number of queries, 42804 other columns';
+
+CREATE FUNCTION abacus_shard_drop(mesh regclass)
+RETURNS void
+AS 'MODULE_PATHNAME', 'abacus_sql_shard_drop'
+LANGUAGE C VOLATILE STRICT PARALLEL UNSAFE;
+COMMENT ON FUNCTION abacus_shard_drop(regclass) IS
+    'drops a mesh over several servers, its tables on the servers first. What a server has dropped does not come back with a rollback. Errors: 42809 not a mesh over several servers, 42501 not its owner';
+
+CREATE FUNCTION abacus_shards(
+    mesh regclass,
+    OUT shard integer,
+    OUT server text,
+    OUT shard_mesh text,
+    OUT "first" bigint,
+    OUT "end" bigint,
+    OUT state text,
+    OUT doing text,
+    OUT points bigint,
+    OUT guests bigint,
+    OUT bytes bigint)
+RETURNS SETOF record
+AS 'MODULE_PATHNAME', 'abacus_sql_shards'
+LANGUAGE C VOLATILE STRICT PARALLEL UNSAFE COST 100000 ROWS 4;
+COMMENT ON FUNCTION abacus_shards(regclass) IS
+    'the shards of a mesh over several servers, of its newest build. Column shard_mesh is the mesh on the server; first and "end" are the codes that the shard owns, the latter excluded; state is the phase of the build, or absent; doing is what a change of the mesh does now; guests are vertices of other shards. Units: bytes of all tables there. Errors: 42809 not a mesh over several servers';
+
+-- What the coordinator calls on the servers.
+
+CREATE FUNCTION abacus_shard_survey(
+    query text,
+    dimension integer,
+    lower double precision[] DEFAULT NULL,
+    upper double precision[] DEFAULT NULL,
+    OUT points bigint,
+    OUT attributes text[],
+    OUT "least" double precision[],
+    OUT "greatest" double precision[],
+    OUT sample double precision[])
+RETURNS record
+AS 'MODULE_PATHNAME', 'abacus_sql_shard_survey'
+LANGUAGE C VOLATILE PARALLEL UNSAFE;
+COMMENT ON FUNCTION abacus_shard_survey(text, integer, double precision[], double precision[]) IS
+    'for the coordinator of a mesh over several servers: how many points a query has, in which box, the names of their attributes, and a sample. Shapes: the query as of abacus_stage; sample has the coordinates of its points, one after the other. Units: those of the coordinates. Errors: those of abacus_stage';
+
+CREATE FUNCTION abacus_shard_owner(
+    lower double precision[],
+    upper double precision[],
+    borders bigint[],
+    place double precision[])
+RETURNS integer
+AS 'MODULE_PATHNAME', 'abacus_sql_shard_owner'
+LANGUAGE C IMMUTABLE STRICT PARALLEL SAFE COST 50;
+COMMENT ON FUNCTION abacus_shard_owner(double precision[], double precision[], bigint[], double precision[]) IS
+    'for the coordinator of a mesh over several servers: which shard owns a place, from 0. Shapes: lower, upper and place are {x, y}, in space {x, y, z}. Units: those of the coordinates. Errors: 22023 a coordinate that is not finite, or a bad array';
+
+CREATE FUNCTION abacus_shard_begin(
+    mesh text,
+    dimension integer,
+    attributes text[],
+    lower double precision[],
+    upper double precision[])
+RETURNS regclass
+AS 'MODULE_PATHNAME', 'abacus_sql_shard_begin'
+LANGUAGE C VOLATILE PARALLEL UNSAFE;
+COMMENT ON FUNCTION abacus_shard_begin(text, integer, text[], double precision[], double precision[]) IS
+    'for the coordinator of a mesh over several servers: makes the mesh of a shard, as abacus_create does, over the domain of all shards. It may be flat. Shapes: lower and upper are {x, y}, in space {x, y, z}. Units: those of the coordinates. Errors: those of abacus_create';
+
+CREATE FUNCTION abacus_shard_take(mesh regclass, query text)
+RETURNS bigint
+AS 'MODULE_PATHNAME', 'abacus_sql_shard_take'
+LANGUAGE C VOLATILE STRICT PARALLEL UNSAFE;
+COMMENT ON FUNCTION abacus_shard_take(regclass, text) IS
+    'for the coordinator of a mesh over several servers: inserts points, as abacus_insert does, and keeps the domain. Returns how many the query gave. Shapes: the query as of abacus_insert. Errors: those of abacus_insert';
+
+CREATE FUNCTION abacus_shard_exports(
+    mesh regclass,
+    borders bigint[],
+    own integer,
+    "least" double precision[],
+    "greatest" double precision[],
+    OUT shard integer,
+    OUT id bigint,
+    OUT x double precision,
+    OUT y double precision,
+    OUT z double precision,
+    OUT attributes double precision[])
+RETURNS SETOF record
+AS 'MODULE_PATHNAME', 'abacus_sql_shard_exports'
+LANGUAGE C STABLE STRICT PARALLEL SAFE COST 100000 ROWS 10000;
+COMMENT ON FUNCTION abacus_shard_exports(regclass, bigint[], integer, double precision[], double precision[]) IS
+    'for the coordinator of a mesh over several servers: the vertices of a shard that other shards need, and which shard. A vertex may come several times. Shapes: borders are codes that ascend; least and greatest are corners of a box around all points. Units: those of the coordinates. Errors: 22023 a point outside that box, or bad borders';
+
+CREATE FUNCTION abacus_shard_settled(
+    mesh regclass,
+    "first" bigint,
+    "end" bigint,
+    ids bigint[],
+    places double precision[],
+    OUT id bigint,
+    OUT x double precision,
+    OUT y double precision,
+    OUT z double precision)
+RETURNS SETOF record
+AS 'MODULE_PATHNAME', 'abacus_sql_shard_settled'
+LANGUAGE C STABLE STRICT PARALLEL SAFE COST 1000 ROWS 1000;
+COMMENT ON FUNCTION abacus_shard_settled(regclass, bigint, bigint, bigint[], double precision[]) IS
+    'for the coordinator of a mesh over several servers: those of the places whose simplices a shard knows as they are in the whole mesh. Shapes: places has the coordinates of one place after the other. Units: those of the coordinates. Errors: 22023 arrays of other lengths';

@@ -1,0 +1,119 @@
+/*
+ * relay.c: points from one server to others, by way of the coordinator.
+ *
+ * A server has them in a temporary table, from which some thousand are read at a time: the coordinator
+ * never holds all of them.
+ */
+#include "postgres.h"
+
+#include "catalog/pg_type.h"
+#include "executor/spi.h"
+#include "utils/array.h"
+#include "utils/float.h"
+#include "utils/memutils.h"
+
+#include "pg/shards/relay.h"
+#include "pg/shards/shard_sql.h"
+
+#define ROWS_A_TIME 4096
+#define EXPORT_COLUMNS \
+	"shard integer, id bigint, x double precision, y double precision, z double precision, attributes double precision[]"
+
+typedef struct Relay
+{
+	const Generation *generation;
+	ShardLinks *links;
+	int			from;
+	RelayStatement statement;
+	PointBatch *batches;		/* for each receiver */
+} Relay;
+
+/* Sends a batch, unless it is empty, when the server has dealt with what was sent before. */
+void
+relay_batch(const Generation *generation, ShardLinks *links, int from, int to, PointBatch *batch,
+			RelayStatement statement)
+{
+	MemoryContext scratch;
+	MemoryContext old;
+
+	if (batch->points == 0)
+		return;
+	link_finish(links, to);
+	scratch = AllocSetContextCreate(CurrentMemoryContext, "Abacus batch", ALLOCSET_DEFAULT_SIZES);
+	old = MemoryContextSwitchTo(scratch);
+	link_send(links, to, statement(generation, from, to, batch));
+	MemoryContextSwitchTo(old);
+	MemoryContextDelete(scratch);
+	point_batch_clear(batch);
+}
+
+/* Reads attributes; NaN stands for one that is missing. */
+static void
+read_attributes(Datum array, double *attributes, int count)
+{
+	Datum	   *values;
+	bool	   *nulls;
+	int			found;
+
+	deconstruct_array(DatumGetArrayTypeP(array), FLOAT8OID, sizeof(float8), FLOAT8PASSBYVAL, TYPALIGN_DOUBLE,
+					  &values, &nulls, &found);
+	for (int i = 0; i < count; i++)
+		attributes[i] = i >= found || nulls[i] ? get_float8_nan() : DatumGetFloat8(values[i]);
+}
+
+static void
+relay_row(Relay *relay, HeapTuple row, TupleDesc desc, double *attributes)
+{
+	bool		isnull[6];
+	Datum		values[6];
+	double		point[ABACUS_MAX_DIMENSION];
+	int			to;
+
+	for (int i = 0; i < lengthof(values); i++)
+		values[i] = SPI_getbinval(row, desc, i + 1, &isnull[i]);
+	to = DatumGetInt32(values[0]);
+	if (to < 0 || to >= relay->generation->shards || to == relay->from)
+		elog(ERROR, "server \"%s\" sends points to shard %d", relay->links->servers[relay->from], to);
+	for (int axis = 0; axis < ABACUS_MAX_DIMENSION; axis++)
+		point[axis] = DatumGetFloat8(values[2 + axis]);
+	read_attributes(values[5], attributes, relay->generation->attribute_count);
+	point_batch_add(&relay->batches[to], DatumGetInt64(values[1]), point, attributes);
+	if (point_batch_is_full(&relay->batches[to]))
+		relay_batch(relay->generation, relay->links, relay->from, to, &relay->batches[to], relay->statement);
+}
+
+/* Passes on what a server has to send; returns how many points that were. */
+int64
+relay_exported(const Generation *generation, ShardLinks *links, int from, RelayStatement statement)
+{
+	Relay		relay = {generation, links, from, statement};
+	double	   *attributes = palloc(Max(1, generation->attribute_count) * sizeof(double));
+	MemoryContext rows = AllocSetContextCreate(CurrentMemoryContext, "Abacus relay", ALLOCSET_DEFAULT_SIZES);
+	int64		sent = 0;
+	uint64		count;
+
+	relay.batches = palloc(generation->shards * sizeof(PointBatch));
+	for (int i = 0; i < generation->shards; i++)
+		point_batch_init(&relay.batches[i], generation->form.dimension, generation->attribute_count);
+	link_finish(links, from);
+	do
+	{
+		SPITupleTable *table;
+		MemoryContext old;
+
+		link_send(links, from, shard_sql_exported(sent, sent + ROWS_A_TIME));
+		count = link_rows(links, from, EXPORT_COLUMNS);
+		table = SPI_tuptable;
+		old = MemoryContextSwitchTo(rows);
+		for (uint64 i = 0; i < count; i++)
+			relay_row(&relay, table->vals[i], table->tupdesc, attributes);
+		MemoryContextSwitchTo(old);
+		MemoryContextReset(rows);
+		SPI_freetuptable(table);
+		sent += (int64) count;
+	} while (count == ROWS_A_TIME);
+	for (int i = 0; i < generation->shards; i++)
+		relay_batch(generation, links, from, i, &relay.batches[i], statement);
+	MemoryContextDelete(rows);
+	return sent;
+}

@@ -1,0 +1,17 @@
+/*
+ * relay.h: points from one server to others, by way of the coordinator.
+ */
+#ifndef ABACUS_RELAY_H
+#define ABACUS_RELAY_H
+
+#include "pg/shards/generation.h"
+#include "pg/shards/point_batch.h"
+
+/* The statement with which a server takes points of another one. */
+typedef char *(*RelayStatement) (const Generation *generation, int from, int shard, const PointBatch *batch);
+
+extern void relay_batch(const Generation *generation, ShardLinks *links, int from, int to, PointBatch *batch,
+						RelayStatement statement);
+extern int64 relay_exported(const Generation *generation, ShardLinks *links, int from, RelayStatement statement);
+
+#endif

@@ -1,0 +1,276 @@
+/*
+ * shard_sql.c: what the coordinator says to the servers, in SQL.
+ *
+ * On its server a shard is an ordinary mesh of the points that it owns and of guests, and a table beside
+ * it that lists the guests: <mesh>_guests. During the exchange a session also has two temporary tables:
+ * what was sent in this call of abacus_shard_build(), and what is to be sent in this round. If a call ends
+ * early they are gone, and the next one sends everything again: a guest that is there already is left
+ * out. So each step can be repeated.
+ */
+#include "postgres.h"
+
+#include "utils/builtins.h"
+#include "utils/float.h"
+
+#include "pg/shards/shard_sql.h"
+
+/* ---- Pieces --------------------------------------------------------------------------------- */
+
+static char *
+text_list(char **texts, int count)
+{
+	StringInfoData list;
+
+	initStringInfo(&list);
+	appendStringInfoString(&list, "ARRAY[");
+	for (int i = 0; i < count; i++)
+		appendStringInfo(&list, "%s%s", i == 0 ? "" : ", ", quote_literal_cstr(texts[i]));
+	appendStringInfoString(&list, "]::text[]");
+	return list.data;
+}
+
+static char *
+point_literal(const abacus_form *form, const double *point)
+{
+	StringInfoData literal;
+
+	initStringInfo(&literal);
+	for (uint32 i = 0; i < form->dimension; i++)
+		appendStringInfo(&literal, "%s%s", i == 0 ? "'{" : ",", float8out_internal(point[i]));
+	appendStringInfoString(&literal, "}'::double precision[]");
+	return literal.data;
+}
+
+static char *
+border_literal(const Generation *generation)
+{
+	StringInfoData literal;
+
+	initStringInfo(&literal);
+	appendStringInfoString(&literal, "'{");
+	for (int i = 0; i + 1 < generation->shards; i++)
+		appendStringInfo(&literal, "%s" UINT64_FORMAT, i == 0 ? "" : ",", generation->borders[i]);
+	appendStringInfoString(&literal, "}'::bigint[]");
+	return literal.data;
+}
+
+/* A condition that a code is the shard's own. */
+char *
+shard_sql_interval(const Generation *generation, int shard, const char *code)
+{
+	StringInfoData condition;
+
+	initStringInfo(&condition);
+	appendStringInfo(&condition, "%s >= " UINT64_FORMAT, code, shard == 0 ? 0 : generation->borders[shard - 1]);
+	if (shard + 1 < generation->shards)
+		appendStringInfo(&condition, " AND %s < " UINT64_FORMAT, code, generation->borders[shard]);
+	return condition.data;
+}
+
+/* ---- A shard's mesh ------------------------------------------------------------------------- */
+
+char *
+shard_sql_drop(const Generation *generation, int shard)
+{
+	char	   *mesh = generation_mesh(generation, shard);
+
+	return psprintf("DROP TABLE IF EXISTS %s, %s_guests", mesh, mesh);
+}
+
+/* Makes the mesh, without points. */
+char *
+shard_sql_begin(const Generation *generation, int shard)
+{
+	const abacus_form *form = &generation->form;
+	char	   *mesh = generation_mesh(generation, shard);
+	const char *domain = "NULL, NULL";
+
+	if (form->has_domain)
+		domain = psprintf("%s, %s", point_literal(form, form->lower), point_literal(form, form->upper));
+	return psprintf("%s; SELECT abacus_shard_begin('%s', %u, %s, %s)::text; "
+					"CREATE TABLE %s_guests (id bigint NOT NULL, x double precision, y double precision, "
+					"z double precision, attributes double precision[] NOT NULL, inserted boolean NOT NULL, "
+					"PRIMARY KEY (x, y, z))",
+					shard_sql_drop(generation, shard), mesh, form->dimension,
+					text_list(generation->attributes, generation->attribute_count), domain, mesh);
+}
+
+char *
+shard_sql_stage(const Generation *generation, int from, int shard, const PointBatch *batch)
+{
+	char	   *query = psprintf("SELECT id, %s FROM %s ORDER BY n",
+								 point_columns(batch->dimension, batch->attributes, "a%d"),
+								 point_batch_rows(batch));
+
+	return psprintf("SELECT abacus_stage('%s', %s)::text", generation_mesh(generation, shard),
+					quote_literal_cstr(query));
+}
+
+/* Inserts the points that wait, and the guests that have come. */
+char *
+shard_sql_take(const Generation *generation, int shard)
+{
+	char	   *mesh = generation_mesh(generation, shard);
+
+	return psprintf("SELECT abacus_shard_take('%s', 'SELECT id, %s FROM %s_guests WHERE NOT inserted')::text; "
+					"UPDATE %s_guests SET inserted = true WHERE NOT inserted",
+					mesh, point_columns(generation->form.dimension, generation->attribute_count, "attributes[%d]"),
+					mesh, mesh);
+}
+
+/* ---- Queries that run on the servers --------------------------------------------------------- */
+
+/* An array of the attributes of a row. */
+static char *
+attribute_list(int attributes)
+{
+	StringInfoData list;
+
+	initStringInfo(&list);
+	appendStringInfoString(&list, "ARRAY[");
+	for (int i = 1; i <= attributes; i++)
+		appendStringInfo(&list, "%sa%d", i == 1 ? "" : ", ", i);
+	appendStringInfoString(&list, "]::double precision[]");
+	return list.data;
+}
+
+/* A query as a table `q` with columns id, x, y, z, a1, ...; it may end with a semicolon. */
+static char *
+query_rows(const Generation *generation, const char *query)
+{
+	char	   *inner = pstrdup(query);
+	size_t		length = strlen(inner);
+
+	while (length > 0 && strchr("; \t\r\n", inner[length - 1]) != NULL)
+		inner[--length] = '\0';
+	return psprintf("(%s\n) AS q (id, %s)", inner,
+					point_columns(generation->form.dimension, generation->attribute_count, "a%d"));
+}
+
+/* The number of the shard that owns a row of it. */
+static char *
+query_owner(const Generation *generation)
+{
+	const abacus_form *form = &generation->form;
+
+	if (!form->has_domain)
+		return pstrdup("0");
+	return psprintf("abacus_shard_owner(%s, %s, %s, ARRAY[%s]::double precision[])", point_literal(form, form->lower),
+					point_literal(form, form->upper), border_literal(generation),
+					form->dimension == 2 ? "x, y" : "x, y, z");
+}
+
+char *
+shard_sql_survey(const Generation *generation, const char *query)
+{
+	const abacus_form *form = &generation->form;
+	const char *domain = "NULL, NULL";
+
+	if (form->has_domain)
+		domain = psprintf("%s, %s", point_literal(form, form->lower), point_literal(form, form->upper));
+	return psprintf("SELECT points, attributes, least, greatest, sample FROM abacus_shard_survey(%s, %u, %s)",
+					quote_literal_cstr(query), form->dimension, domain);
+}
+
+/* Finds the rows of the server's query that others own, and makes room for theirs that it owns. */
+char *
+shard_sql_others(const Generation *generation, int shard, const char *query)
+{
+	return psprintf("CREATE TEMPORARY TABLE abacus_arrival (n bigserial, source integer, id bigint, "
+					"x double precision, y double precision, z double precision, attributes double precision[]) "
+					"ON COMMIT DROP; "
+					"CREATE TEMPORARY TABLE abacus_export (n bigint PRIMARY KEY, shard integer, id bigint, "
+					"x double precision, y double precision, z double precision, attributes double precision[]) "
+					"ON COMMIT DROP; "
+					"INSERT INTO pg_temp.abacus_export "
+					"SELECT row_number() OVER (ORDER BY n), shard, id, x, y, z, attributes "
+					"FROM (SELECT row_number() OVER () AS n, %s AS shard, id, x, y, %s AS z, %s AS attributes FROM %s) "
+					"AS owned WHERE shard <> %d",
+					query_owner(generation), generation->form.dimension == 2 ? "0" : "z",
+					attribute_list(generation->attribute_count), query_rows(generation, query), shard);
+}
+
+/* Rows of another server's query come. */
+char *
+shard_sql_arrive(const Generation *generation, int from, int shard, const PointBatch *batch)
+{
+	return psprintf("INSERT INTO pg_temp.abacus_arrival (source, id, x, y, z, attributes) "
+					"SELECT %d, id, x, y, %s, %s FROM %s ORDER BY n",
+					from, batch->dimension == 2 ? "0" : "z", attribute_list(batch->attributes),
+					point_batch_rows(batch));
+}
+
+/* Stages all that the server owns, in the order of the queries. */
+char *
+shard_sql_stage_arrived(const Generation *generation, int shard, const char *query)
+{
+	char	   *mesh = generation_mesh(generation, shard);
+	uint32		dimension = generation->form.dimension;
+	int			attributes = generation->attribute_count;
+	char	   *arrived = psprintf("SELECT id, %s FROM pg_temp.abacus_arrival WHERE source %%s %d ORDER BY source, n",
+								   point_columns(dimension, attributes, "attributes[%d]"), shard);
+	char	   *own = psprintf("SELECT id, %s FROM %s WHERE %s = %d", point_columns(dimension, attributes, "a%d"),
+							   query_rows(generation, query), query_owner(generation), shard);
+
+	return psprintf("SELECT abacus_stage('%s', %s)::text; SELECT abacus_stage('%s', %s)::text; "
+					"SELECT abacus_stage('%s', %s)::text",
+					mesh, quote_literal_cstr(psprintf(arrived, "<")), mesh, quote_literal_cstr(own),
+					mesh, quote_literal_cstr(psprintf(arrived, ">")));
+}
+
+/* ---- The exchange --------------------------------------------------------------------------- */
+
+const char *
+shard_sql_begin_exchange(void)
+{
+	return "DROP TABLE IF EXISTS pg_temp.abacus_sent, pg_temp.abacus_export; "
+		"CREATE TEMPORARY TABLE abacus_sent (shard integer, x double precision, y double precision, "
+		"z double precision, PRIMARY KEY (shard, x, y, z)); "
+		"CREATE TEMPORARY TABLE abacus_export (n bigint PRIMARY KEY, shard integer, id bigint, "
+		"x double precision, y double precision, z double precision, attributes double precision[])";
+}
+
+const char *
+shard_sql_end_exchange(void)
+{
+	return "DROP TABLE IF EXISTS pg_temp.abacus_sent, pg_temp.abacus_export";
+}
+
+/*
+ * Finds what other shards need and has not been sent to them. Of equal points that wait the first
+ * counts, so the rows keep their order.
+ */
+char *
+shard_sql_export(const Generation *generation, int shard)
+{
+	const abacus_form *form = &generation->form;
+
+	return psprintf("DELETE FROM pg_temp.abacus_export; "
+					"WITH found AS MATERIALIZED (SELECT row_number() OVER () AS n, shard, id, x, y, "
+					"coalesce(z, 0) AS z, attributes FROM abacus_shard_exports('%s', %s, %d, %s, %s)), "
+					"fresh AS (INSERT INTO pg_temp.abacus_sent SELECT DISTINCT shard, x, y, z FROM found "
+					"ON CONFLICT DO NOTHING RETURNING shard, x, y, z), "
+					"first AS (SELECT DISTINCT ON (shard, x, y, z) n, shard, id, x, y, z, attributes "
+					"FROM found JOIN fresh USING (shard, x, y, z) ORDER BY shard, x, y, z, n) "
+					"INSERT INTO pg_temp.abacus_export "
+					"SELECT row_number() OVER (ORDER BY n), shard, id, x, y, z, attributes FROM first",
+					generation_mesh(generation, shard), border_literal(generation), shard,
+					point_literal(form, generation->extent.lower), point_literal(form, generation->extent.upper));
+}
+
+/* Some of these rows. */
+char *
+shard_sql_exported(int64 from, int64 to)
+{
+	return psprintf("SELECT shard, id, x, y, z, attributes FROM pg_temp.abacus_export "
+					"WHERE n > " INT64_FORMAT " AND n <= " INT64_FORMAT " ORDER BY n", from, to);
+}
+
+/* Guests come; those that are there stay as they are. */
+char *
+shard_sql_receive(const Generation *generation, int from, int shard, const PointBatch *batch)
+{
+	return psprintf("INSERT INTO %s_guests SELECT id, x, y, %s, %s, false FROM %s ORDER BY n ON CONFLICT DO NOTHING",
+					generation_mesh(generation, shard), batch->dimension == 2 ? "0" : "z",
+					attribute_list(batch->attributes), point_batch_rows(batch));
+}

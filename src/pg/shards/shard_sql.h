@@ -1,0 +1,25 @@
+/*
+ * shard_sql.h: what the coordinator says to the servers, in SQL.
+ */
+#ifndef ABACUS_SHARD_SQL_H
+#define ABACUS_SHARD_SQL_H
+
+#include "pg/shards/generation.h"
+#include "pg/shards/point_batch.h"
+
+extern char *shard_sql_drop(const Generation *generation, int shard);
+extern char *shard_sql_begin(const Generation *generation, int shard);
+extern char *shard_sql_stage(const Generation *generation, int from, int shard, const PointBatch *batch);
+extern char *shard_sql_take(const Generation *generation, int shard);
+extern char *shard_sql_survey(const Generation *generation, const char *query);
+extern char *shard_sql_others(const Generation *generation, int shard, const char *query);
+extern char *shard_sql_arrive(const Generation *generation, int from, int shard, const PointBatch *batch);
+extern char *shard_sql_stage_arrived(const Generation *generation, int shard, const char *query);
+extern const char *shard_sql_begin_exchange(void);
+extern char *shard_sql_export(const Generation *generation, int shard);
+extern char *shard_sql_exported(int64 from, int64 to);
+extern char *shard_sql_receive(const Generation *generation, int from, int shard, const PointBatch *batch);
+extern const char *shard_sql_end_exchange(void);
+extern char *shard_sql_interval(const Generation *generation, int shard, const char *code);
+
+#endif

@@ -1,0 +1,61 @@
+// The vertices that a shard has to send to others: one round of the exchange by which the
+// triangulations of all shards become parts of one (docs/design/servers.md has the proof).
+//
+// A shard's mesh is the triangulation of its own points and of guests, which others own. For each
+// simplex of it
+//
+//   1. all corners go to the shards that own one of them, and
+//   2. if the shard itself owns a corner, they go to each shard whose region the circumsphere may
+//      meet; a ghost's is its half-space.
+//
+// A shard without simplices sends its own points to all others. A shard sends no vertex to its
+// owner. When no shard has anything to send that the receiver does not have, each simplex with a
+// corner of the shard's own belongs to the triangulation of all points.
+#pragma once
+
+#include "points/vertex_reader.hpp"
+#include "query/pages/page_scan.hpp"
+#include "query/pages/vertex_values.hpp"
+#include "shards/regions.hpp"
+
+#include <abacus/shards.h>
+
+namespace abacus {
+
+template <int D> class Exports {
+public:
+    Exports(const Host &host, const abacus_facts &facts, std::span<const std::uint64_t> borders,
+            std::uint32_t shard, const abacus_box &extent);
+
+    /// Throws an Error (argument) at a point that the extent does not contain.
+    ///
+    /// The next vertex to be sent, and the shard that needs it; false after the last. A page names
+    /// each pair once; several pages may name the same. The attributes are valid until the next
+    /// call.
+    bool next(std::uint32_t &to, abacus_vertex &vertex);
+
+private:
+    void collect();
+    void collect(int simplex);
+    void send(int simplex, std::uint32_t to);
+    bool next_waiting(std::uint32_t &to, abacus_vertex &vertex);
+
+    const std::uint32_t shard_;
+    const Box<D> extent_;
+    const ShardRegions<D> regions_;
+    const unsigned attributes_;
+    const bool has_simplices_;
+    PageScan<D> pages_;
+    VertexReader<D> waiting_;
+    std::uint32_t next_receiver_; // of the point that waits
+    VertexValues<D> values_;
+    Arena<double> of_vertex_;      // its attributes
+    Arena<std::uint32_t> owners_;  // of the page's vertices
+    Arena<std::uint64_t> to_send_; // from the page: shards, and vertices by number
+    std::size_t at_ = 0;           // in it
+};
+
+extern template class Exports<2>;
+extern template class Exports<3>;
+
+} // namespace abacus
