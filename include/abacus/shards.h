@@ -57,6 +57,14 @@ ABACUS_API void abacus_survey_close(abacus_survey *survey);
 ABACUS_API abacus_status abacus_codes(const abacus_form *form, const double *points, size_t count,
 									  uint64_t *codes, abacus_error *error);
 
+/*
+ * *order is below 0 if point a is nearer to a place than b is, above 0 if it is farther away; compared
+ * exactly, and of points equally far the one with the lexicographically least coordinates comes first.
+ */
+ABACUS_API abacus_status abacus_compare_nearness(uint32_t dimension, const double *place,
+												 const double *a, const double *b, int *order,
+												 abacus_error *error);
+
 /* ---- The exchange ------------------------------------------------------------ */
 
 /*

@@ -1,4 +1,5 @@
 // Shards behind the C interface.
+#include "geometry/distance.hpp"
 #include "keys/domain_of.hpp"
 #include "shards/exports.hpp"
 #include "shards/given_box.hpp"
@@ -92,13 +93,17 @@ void abacus_survey_close(abacus_survey *survey) { abacus::destroy_handle(survey)
 
 namespace {
 
+template <int D> abacus::Point<D> point_at(const double *coordinates) {
+    abacus::Point<D> p;
+    std::copy_n(coordinates, D, p.begin());
+    return p;
+}
+
 template <int D>
 void codes_over(const abacus_form &form, const double *points, size_t count, uint64_t *codes) {
     const abacus::Domain<D> domain = abacus::domain_of<D>(form);
     for (size_t i = 0; i < count; ++i) {
-        abacus::Point<D> p;
-        std::copy_n(points + i * D, D, p.begin());
-        codes[i] = domain.code(p);
+        codes[i] = domain.code(point_at<D>(points + i * D));
     }
 }
 
@@ -111,6 +116,24 @@ abacus_status abacus_codes(const abacus_form *form, const double *points, size_t
             codes_over<2>(*form, points, count, codes);
         else
             codes_over<3>(*form, points, count, codes);
+        return ABACUS_OK;
+    });
+}
+
+namespace {
+
+template <int D> int order_by_nearness(const double *place, const double *a, const double *b) {
+    const abacus::Point<D> p = point_at<D>(place), pa = point_at<D>(a), pb = point_at<D>(b);
+    return abacus::comes_nearer<D>(p, pa, pb) ? -1 : abacus::comes_nearer<D>(p, pb, pa) ? 1 : 0;
+}
+
+} // namespace
+
+abacus_status abacus_compare_nearness(uint32_t dimension, const double *place, const double *a,
+                                      const double *b, int *order, abacus_error *error) {
+    return abacus::guard(error, [&] {
+        *order = dimension == 2 ? order_by_nearness<2>(place, a, b)
+                                : order_by_nearness<3>(place, a, b);
         return ABACUS_OK;
     });
 }

@@ -30,20 +30,30 @@
 #include "pg/port/port.h"
 #include "pg/shards/links.h"
 
-/* Checks before sleeping, and the longest sleep between two checks. */
+/* Checks before sleeping; later checks between short sleeps; then longer ones. */
 #define QUICK_LOOKS 20
-#define LONGEST_SLEEP 50		/* ms */
+#define SHORT_SLEEP 1			/* ms */
+#define SHORT_LOOKS 1000
+#define LONG_SLEEP 5
 
 /* ---- Calls of dblink ----------------------------------------------------------------------- */
 
-/* Runs a query of dblink's functions with up to two texts as arguments. */
+/* Runs a query of dblink's functions with up to two texts as arguments; keeps the memory context. */
 static void
 ask(const char *query, const char *first, const char *second)
 {
+	MemoryContext caller = CurrentMemoryContext;
+	MemoryContext scratch = AllocSetContextCreate(caller, "Abacus link", ALLOCSET_DEFAULT_SIZES);
 	Oid			types[] = {TEXTOID, TEXTOID};
-	Datum		values[] = {CStringGetTextDatum(first), second == NULL ? (Datum) 0 : CStringGetTextDatum(second)};
-	int			status = SPI_execute_with_args(query, second == NULL ? 1 : 2, types, values, NULL, false, 0);
+	Datum		values[2];
+	int			status;
 
+	MemoryContextSwitchTo(scratch);
+	values[0] = CStringGetTextDatum(first);
+	values[1] = second == NULL ? (Datum) 0 : CStringGetTextDatum(second);
+	status = SPI_execute_with_args(query, second == NULL ? 1 : 2, types, values, NULL, false, 0);
+	MemoryContextSwitchTo(caller);
+	MemoryContextDelete(scratch);
 	if (status != SPI_OK_SELECT)
 		elog(ERROR, "could not call dblink: %s", SPI_result_code_string(status));
 }
@@ -218,20 +228,21 @@ link_send(ShardLinks *links, int i, const char *query)
 	links->busy[i] = true;
 }
 
-/* Waits until a result can be fetched at once. */
+/*
+ * Waits until a result can be fetched at once. Each check also takes what has come so far, no more than
+ * the socket holds: so sleeps are short.
+ */
 static void
 wait_for_result(ShardLinks *links, int i)
 {
-	long		sleep = 1;
-
 	for (int looks = 0; ask_number(links, "dblink_is_busy", i) != 0; looks++)
 	{
 		CHECK_FOR_INTERRUPTS();
 		if (looks < QUICK_LOOKS)
 			continue;
-		(void) WaitLatch(MyLatch, WL_LATCH_SET | WL_TIMEOUT | WL_EXIT_ON_PM_DEATH, sleep, PG_WAIT_EXTENSION);
+		(void) WaitLatch(MyLatch, WL_LATCH_SET | WL_TIMEOUT | WL_EXIT_ON_PM_DEATH,
+						 looks < SHORT_LOOKS ? SHORT_SLEEP : LONG_SLEEP, PG_WAIT_EXTENSION);
 		ResetLatch(MyLatch);
-		sleep = Min(2 * sleep, LONGEST_SLEEP);
 	}
 }
 

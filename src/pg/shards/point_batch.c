@@ -16,6 +16,16 @@
 /* A batch of so many bytes is sent. */
 #define FULL_BYTES (512 * 1024)
 
+/* The shortest decimal that gives the same double. */
+char *
+exact_text(double value)
+{
+	char	   *text = palloc(DOUBLE_SHORTEST_DECIMAL_LEN);
+
+	double_to_shortest_decimal_buf(value, text);
+	return text;
+}
+
 void
 point_batch_init(PointBatch *batch, uint32 dimension, int attributes)
 {

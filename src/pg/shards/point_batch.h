@@ -18,6 +18,7 @@ typedef struct PointBatch
 	StringInfoData *columns;
 } PointBatch;
 
+extern char *exact_text(double value);
 extern void point_batch_init(PointBatch *batch, uint32 dimension, int attributes);
 extern void point_batch_add(PointBatch *batch, int64 id, const double *point, const double *attributes);
 extern bool point_batch_is_full(const PointBatch *batch);

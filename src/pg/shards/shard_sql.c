@@ -10,7 +10,6 @@
 #include "postgres.h"
 
 #include "utils/builtins.h"
-#include "utils/float.h"
 
 #include "pg/shards/shard_sql.h"
 
@@ -36,7 +35,7 @@ point_literal(const abacus_form *form, const double *point)
 
 	initStringInfo(&literal);
 	for (uint32 i = 0; i < form->dimension; i++)
-		appendStringInfo(&literal, "%s%s", i == 0 ? "'{" : ",", float8out_internal(point[i]));
+		appendStringInfo(&literal, "%s%s", i == 0 ? "'{" : ",", exact_text(point[i]));
 	appendStringInfoString(&literal, "}'::double precision[]");
 	return literal.data;
 }
@@ -172,21 +171,27 @@ shard_sql_survey(const Generation *generation, const char *query)
 					quote_literal_cstr(query), form->dimension, domain);
 }
 
+/* Temporary tables, for this transaction, of what goes to other servers and what comes from them. */
+const char *
+shard_sql_make_room(void)
+{
+	return "CREATE TEMPORARY TABLE abacus_arrival (n bigserial, source integer, id bigint, "
+		"x double precision, y double precision, z double precision, attributes double precision[]) "
+		"ON COMMIT DROP; "
+		"CREATE TEMPORARY TABLE abacus_export (n bigint PRIMARY KEY, shard integer, id bigint, "
+		"x double precision, y double precision, z double precision, attributes double precision[]) "
+		"ON COMMIT DROP";
+}
+
 /* Finds the rows of the server's query that others own, and makes room for theirs that it owns. */
 char *
 shard_sql_others(const Generation *generation, int shard, const char *query)
 {
-	return psprintf("CREATE TEMPORARY TABLE abacus_arrival (n bigserial, source integer, id bigint, "
-					"x double precision, y double precision, z double precision, attributes double precision[]) "
-					"ON COMMIT DROP; "
-					"CREATE TEMPORARY TABLE abacus_export (n bigint PRIMARY KEY, shard integer, id bigint, "
-					"x double precision, y double precision, z double precision, attributes double precision[]) "
-					"ON COMMIT DROP; "
-					"INSERT INTO pg_temp.abacus_export "
+	return psprintf("%s; INSERT INTO pg_temp.abacus_export "
 					"SELECT row_number() OVER (ORDER BY n), shard, id, x, y, z, attributes "
 					"FROM (SELECT row_number() OVER () AS n, %s AS shard, id, x, y, %s AS z, %s AS attributes FROM %s) "
 					"AS owned WHERE shard <> %d",
-					query_owner(generation), generation->form.dimension == 2 ? "0" : "z",
+					shard_sql_make_room(), query_owner(generation), generation->form.dimension == 2 ? "0" : "z",
 					attribute_list(generation->attribute_count), query_rows(generation, query), shard);
 }
 
@@ -273,4 +278,55 @@ shard_sql_receive(const Generation *generation, int from, int shard, const Point
 	return psprintf("INSERT INTO %s_guests SELECT id, x, y, %s, %s, false FROM %s ORDER BY n ON CONFLICT DO NOTHING",
 					generation_mesh(generation, shard), batch->dimension == 2 ? "0" : "z",
 					attribute_list(batch->attributes), point_batch_rows(batch));
+}
+
+/* ---- The check ------------------------------------------------------------------------------ */
+
+/* How many points the shard has that it does not own, besides its guests. */
+char *
+shard_sql_strangers(const Generation *generation, int shard)
+{
+	char	   *mesh = generation_mesh(generation, shard);
+
+	return psprintf("SELECT count(*) FROM abacus_vertices('%s') AS v WHERE %s <> %d AND NOT EXISTS "
+					"(SELECT FROM %s_guests AS g WHERE g.x = v.x AND g.y = v.y AND g.z = coalesce(v.z, 0))",
+					mesh, query_owner(generation), shard, mesh);
+}
+
+/* Lists the guests, for their owners. */
+char *
+shard_sql_list_guests(const Generation *generation, int shard)
+{
+	return psprintf("INSERT INTO pg_temp.abacus_export SELECT row_number() OVER (), %s, id, x, y, z, attributes "
+					"FROM %s_guests", query_owner(generation), generation_mesh(generation, shard));
+}
+
+/* How many of the guests that other shards have listed the shard does not have just so. */
+char *
+shard_sql_count_unknown(const Generation *generation, int shard)
+{
+	return psprintf("SELECT count(*) FROM pg_temp.abacus_arrival AS a WHERE NOT EXISTS "
+					"(SELECT FROM abacus_vertices('%s') AS v WHERE v.x = a.x AND v.y = a.y AND coalesce(v.z, 0) = a.z "
+					"AND v.id = a.id AND v.attributes = a.attributes)", generation_mesh(generation, shard));
+}
+
+/* Lists what other shards need. */
+char *
+shard_sql_list_exports(const Generation *generation, int shard)
+{
+	const abacus_form *form = &generation->form;
+
+	return psprintf("INSERT INTO pg_temp.abacus_export SELECT row_number() OVER (), shard, id, x, y, coalesce(z, 0), "
+					"attributes FROM abacus_shard_exports('%s', %s, %d, %s, %s)",
+					generation_mesh(generation, shard), border_literal(generation), shard,
+					point_literal(form, generation->extent.lower), point_literal(form, generation->extent.upper));
+}
+
+/* How many of these the shard lacks. */
+char *
+shard_sql_count_missing(const Generation *generation, int shard)
+{
+	return psprintf("SELECT count(DISTINCT (a.x, a.y, a.z)) FROM pg_temp.abacus_arrival AS a WHERE NOT EXISTS "
+					"(SELECT FROM %s_guests AS g WHERE g.x = a.x AND g.y = a.y AND g.z = a.z AND g.inserted)",
+					generation_mesh(generation, shard));
 }

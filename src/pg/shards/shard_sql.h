@@ -22,4 +22,11 @@ extern char *shard_sql_receive(const Generation *generation, int from, int shard
 extern const char *shard_sql_end_exchange(void);
 extern char *shard_sql_interval(const Generation *generation, int shard, const char *code);
 
+extern const char *shard_sql_make_room(void);
+extern char *shard_sql_strangers(const Generation *generation, int shard);
+extern char *shard_sql_list_guests(const Generation *generation, int shard);
+extern char *shard_sql_count_unknown(const Generation *generation, int shard);
+extern char *shard_sql_list_exports(const Generation *generation, int shard);
+extern char *shard_sql_count_missing(const Generation *generation, int shard);
+
 #endif

@@ -16,6 +16,8 @@
 #include "pg/base/settings.h"
 #include "pg/base/sql_function.h"
 #include "pg/mesh/numbering.h"
+#include "pg/shards/shard_check.h"
+#include "pg/shards/shard_read.h"
 #include "pg/sql/constrain/fixed_edges.h"
 #include "pg/sql/constrain/regions_fault.h"
 #include "pg/sql/rows/result.h"
@@ -239,6 +241,8 @@ abacus_sql_check(PG_FUNCTION_ARGS)
 	Datum		values[4];
 	bool		isnull[4] = {false};
 
+	if (SRF_IS_FIRSTCALL() && is_over_shards(fcinfo))
+		return shard_check(fcinfo);
 	if (SRF_IS_FIRSTCALL())
 	{
 		int32		limit;

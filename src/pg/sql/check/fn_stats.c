@@ -21,6 +21,8 @@
 #include "pg/levels/levels_table.h"
 #include "pg/mesh/mesh_cache.h"
 #include "pg/mesh/reader.h"
+#include "pg/shards/shard_check.h"
+#include "pg/shards/shard_read.h"
 #include "pg/sql/rows/result.h"
 
 SQL_FUNCTION(abacus_sql_stats);
@@ -256,11 +258,17 @@ abacus_sql_stats(PG_FUNCTION_ARGS)
 {
 	Oid			mesh = PG_GETARG_OID(0);
 	Figures		figures = {(ReturnSetInfo *) fcinfo->resultinfo, ""};
-	Reader	   *reader = reader_open_of(mesh, ANY_TYPE, CurrentMemoryContext);
-	bool		is_octree = reader->header.facts.form.type == ABACUS_OCTREE;
-	Oid			vertices = mesh_pages_vertex_table(mesh_pages(reader->host));
-	const CachedMesh *cached = mesh_cache_peek(mesh);
+	Reader	   *reader;
+	bool		is_octree;
+	Oid			vertices;
+	const CachedMesh *cached;
 
+	if (is_over_shards(fcinfo))
+		return shard_stats(fcinfo);
+	reader = reader_open_of(mesh, ANY_TYPE, CurrentMemoryContext);
+	is_octree = reader->header.facts.form.type == ABACUS_OCTREE;
+	vertices = mesh_pages_vertex_table(mesh_pages(reader->host));
+	cached = mesh_cache_peek(mesh);
 	if (!is_octree)
 		report_domain(reader);
 	host_release(reader->host);

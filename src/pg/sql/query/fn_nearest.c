@@ -13,6 +13,7 @@
 #include "pg/base/sql_function.h"
 #include "pg/host/guard.h"
 #include "pg/mesh/mesh_cache.h"
+#include "pg/shards/shard_read.h"
 #include "pg/sql/arguments/place.h"
 #include "pg/sql/arguments/places.h"
 #include "pg/sql/rows/answers.h"
@@ -75,6 +76,8 @@ abacus_sql_nearest(PG_FUNCTION_ARGS)
 	CachedMesh *cached;
 	Answers		answers = {.set = (ReturnSetInfo *) fcinfo->resultinfo};
 
+	if (is_over_shards(fcinfo))
+		return shard_read_nearest(fcinfo, given);
 	InitMaterializedSRF(fcinfo, 0);
 	cached = mesh_cache_get(PG_GETARG_OID(0));
 	place_require_z(given, &cached->header.facts.form);
@@ -111,6 +114,8 @@ abacus_sql_nearest_places(PG_FUNCTION_ARGS)
 	PlacesRead	read;
 	Answers		answers = {.set = (ReturnSetInfo *) fcinfo->resultinfo};
 
+	if (is_over_shards(fcinfo))
+		return shard_read_nearest_places(fcinfo);
 	InitMaterializedSRF(fcinfo, 0);
 	places_read(&read, PG_GETARG_OID(0), ABACUS_MESH, text_to_cstring(PG_GETARG_TEXT_PP(1)));
 	answers.host = read.host;

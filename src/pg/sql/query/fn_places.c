@@ -9,6 +9,7 @@
 #include "pg/base/sql_function.h"
 #include "pg/host/guard.h"
 #include "pg/host/temp_room.h"
+#include "pg/shards/shard_read.h"
 #include "pg/sql/arguments/places.h"
 #include "pg/sql/rows/answers.h"
 #include "pg/sql/rows/result.h"
@@ -58,6 +59,8 @@ abacus_sql_locate_places(PG_FUNCTION_ARGS)
 	PlacesRead	read;
 	Answers		answers = {.set = (ReturnSetInfo *) fcinfo->resultinfo};
 
+	if (is_over_shards(fcinfo))
+		return shard_read_places(fcinfo, true);
 	InitMaterializedSRF(fcinfo, 0);
 	places_read(&read, PG_GETARG_OID(0), ABACUS_MESH, text_to_cstring(PG_GETARG_TEXT_PP(1)));
 	answers.host = read.host;

@@ -9,6 +9,7 @@
 #include "abacus/scan.h"
 #include "pg/base/settings.h"
 #include "pg/base/sql_function.h"
+#include "pg/shards/shard_read.h"
 #include "pg/sql/rows/faces.h"
 #include "pg/sql/rows/result.h"
 #include "pg/sql/rows/set.h"
@@ -28,6 +29,8 @@ abacus_sql_simplices(PG_FUNCTION_ARGS)
 	abacus_simplex simplex;
 	abacus_status status;
 
+	if (SRF_IS_FIRSTCALL() && is_over_shards(fcinfo))
+		return shard_read_rows(fcinfo, ROWS_BY_CODE);
 	if (SRF_IS_FIRSTCALL())
 	{
 		abacus_scan *scan = NULL;
@@ -100,5 +103,7 @@ is_about_part(FunctionCallInfo fcinfo)
 Datum
 abacus_sql_vertices(PG_FUNCTION_ARGS)
 {
+	if (SRF_IS_FIRSTCALL() && is_over_shards(fcinfo))
+		return shard_read_rows(fcinfo, ROWS_WITHOUT_GUESTS);
 	return PG_ARGISNULL(0) || is_about_part(fcinfo) ? faces_vertices(fcinfo) : all_points(fcinfo);
 }

@@ -9,6 +9,7 @@
 
 #include "abacus/windows.h"
 #include "pg/base/sql_function.h"
+#include "pg/shards/shard_read.h"
 #include "pg/sql/arguments/extent_arguments.h"
 #include "pg/sql/arguments/window.h"
 #include "pg/sql/rows/result.h"
@@ -92,6 +93,8 @@ next(FunctionCallInfo fcinfo, WindowForm form, Wanted wanted)
 	const double *labels = NULL;
 	abacus_status status;
 
+	if (SRF_IS_FIRSTCALL() && is_over_shards(fcinfo))
+		return shard_read_rows(fcinfo, ROWS_BY_CODE);
 	if (SRF_IS_FIRSTCALL())
 	{
 		set = SRF_FIRSTCALL_INIT();

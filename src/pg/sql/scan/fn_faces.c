@@ -10,6 +10,7 @@
 #include "abacus/windows.h"
 #include "pg/base/settings.h"
 #include "pg/base/sql_function.h"
+#include "pg/shards/shard_read.h"
 #include "pg/sql/arguments/extent_arguments.h"
 #include "pg/sql/arguments/window.h"
 #include "pg/sql/constrain/fixed_edges.h"
@@ -144,6 +145,8 @@ faces_vertices(FunctionCallInfo fcinfo)
 Datum
 abacus_sql_vertices_in_ball(PG_FUNCTION_ARGS)
 {
+	if (SRF_IS_FIRSTCALL() && is_over_shards(fcinfo))
+		return shard_read_rows(fcinfo, ROWS_WITHOUT_GUESTS);
 	return next(fcinfo, WINDOW_BALL, VERTICES);
 }
 

@@ -1,0 +1,526 @@
+/*
+ * shard_read.c: questions to a mesh over several servers: the same functions, called on the servers.
+ *
+ * Windows. Each simplex and each point belongs to one shard; each server returns what belongs to its own.
+ *
+ * Places. A shard can answer for a place if each simplex around it there has a corner that the shard
+ * owns: then these are all simplices of the whole mesh around that place, and the answer is that of one
+ * server. First each place is sent to the shard that owns its code. What that one cannot answer goes to
+ * all others: the owner of a corner of the simplex around the place can. If none can, the place is
+ * outside. Places are dealt with some thousand at a time, which bounds the memory.
+ *
+ * Meshes on the servers are those of one published generation, which no build changes. So the answers of
+ * all servers are from the same mesh.
+ */
+#include "postgres.h"
+
+#include <math.h>
+
+#include "executor/spi.h"
+#include "funcapi.h"
+#include "utils/builtins.h"
+#include "utils/lsyscache.h"
+
+#include "pg/input/source.h"
+#include "pg/mesh/mesh.h"
+#include "pg/mesh/mesh_cache.h"
+#include "pg/shards/shard_call.h"
+#include "pg/shards/shard_read.h"
+#include "pg/shards/shard_sql.h"
+
+/* Whether a function's first argument is a mesh over several servers. */
+bool
+is_over_shards(FunctionCallInfo fcinfo)
+{
+	return !PG_ARGISNULL(0) && mesh_cache_peek(PG_GETARG_OID(0)) == NULL && mesh_is_sharded(PG_GETARG_OID(0));
+}
+
+/* ---- Everything, or a window ---------------------------------------------------------------- */
+
+typedef struct RowsRead
+{
+	FunctionCallInfo fcinfo;
+	ReturnSetInfo *set;
+	Generation	generation;
+	ShardRows	rows;
+} RowsRead;
+
+static char *
+owned_rows(const RowsRead *read, int shard)
+{
+	char	   *mesh = generation_mesh(&read->generation, shard);
+
+	if (read->rows == ROWS_BY_CODE)
+		return shard_sql_interval(&read->generation, shard, "r.code");
+	return psprintf("NOT EXISTS (SELECT FROM %s_guests AS g WHERE g.x = r.x AND g.y = r.y AND "
+					"g.z = coalesce(r.z, 0))", mesh);
+}
+
+/* Copies the rows of the last query to the result. */
+static void
+take_rows(ReturnSetInfo *set)
+{
+	for (uint64 i = 0; i < SPI_processed; i++)
+		tuplestore_puttuple(set->setResult, SPI_tuptable->vals[i]);
+	SPI_freetuptable(SPI_tuptable);
+}
+
+static void
+read_rows(ShardLinks *links, void *context)
+{
+	RowsRead   *read = context;
+	char	   *columns = shard_call_columns(read->set->setDesc);
+
+	for (int i = 0; i < links->count; i++)
+		link_send(links, i, psprintf("SELECT r.* FROM %s AS r WHERE %s",
+									 shard_call(read->fcinfo, generation_mesh(&read->generation, i), 0, NULL),
+									 owned_rows(read, i)));
+	for (int i = 0; i < links->count; i++)
+	{
+		(void) link_rows(links, i, columns);
+		take_rows(read->set);
+	}
+}
+
+/* The rows of a function, of all shards. */
+Datum
+shard_read_rows(FunctionCallInfo fcinfo, ShardRows rows)
+{
+	RowsRead	read = {.fcinfo = fcinfo,.set = (ReturnSetInfo *) fcinfo->resultinfo,.rows = rows};
+	ShardLinks	links;
+
+	InitMaterializedSRF(fcinfo, 0);
+	SPI_connect();
+	generation_require_published(PG_GETARG_OID(0), &read.generation);
+	links_prepare(&links, read.generation.servers, read.generation.shards);
+	links_run(&links, read_rows, &read);
+	SPI_finish();
+	PG_RETURN_NULL();
+}
+
+/* ---- Places --------------------------------------------------------------------------------- */
+
+#define PLACES_AT_ONCE 8192
+#define NOT_SETTLED (-1)
+
+/* Some places, and what becomes of them. */
+typedef struct PlacesAsked
+{
+	FunctionCallInfo fcinfo;
+	Generation	generation;
+	int			coordinates;	/* given as arguments, of one place; 0: the places of a query */
+	TupleDesc	desc;			/* of the rows that the servers return, after the number of the place */
+	char	   *columns;
+	int			count;
+	int64	   *ids;
+	double	   *points;
+	int		   *owners;
+	int		   *settled;		/* which shard has answered */
+	StringInfoData *asked;		/* for each shard: numbers, */
+	StringInfoData *asked_points;	/* and coordinates of the places that it is asked for */
+	void		(*put) (struct PlacesAsked *asked, int place, HeapTuple row, TupleDesc desc);
+	void		(*put_outside) (struct PlacesAsked *asked, int place);
+	ReturnSetInfo *set;			/* NULL: a single value */
+	Datum		value;
+	bool		has_value;
+} PlacesAsked;
+
+static void
+begin_places(PlacesAsked *asked)
+{
+	int			shards = asked->generation.shards;
+
+	asked->asked = palloc(shards * sizeof(StringInfoData));
+	asked->asked_points = palloc(shards * sizeof(StringInfoData));
+	for (int i = 0; i < shards; i++)
+	{
+		initStringInfo(&asked->asked[i]);
+		initStringInfo(&asked->asked_points[i]);
+	}
+	asked->ids = palloc(PLACES_AT_ONCE * sizeof(int64));
+	asked->points = palloc(PLACES_AT_ONCE * ABACUS_MAX_DIMENSION * sizeof(double));
+	asked->owners = palloc(PLACES_AT_ONCE * sizeof(int));
+	asked->settled = palloc(PLACES_AT_ONCE * sizeof(int));
+	asked->count = 0;
+}
+
+static void
+ask_for(PlacesAsked *asked, int shard, int place)
+{
+	int			dimension = (int) asked->generation.form.dimension;
+	StringInfo	numbers = &asked->asked[shard];
+	StringInfo	points = &asked->asked_points[shard];
+
+	appendStringInfo(numbers, "%c%d", numbers->len == 0 ? '{' : ',', place);
+	for (int i = 0; i < dimension; i++)
+	{
+		char	   *text = exact_text(asked->points[place * dimension + i]);
+
+		appendStringInfo(points, "%c%s", points->len == 0 ? '{' : ',', text);
+		pfree(text);
+	}
+}
+
+/* The query for the places that a shard is asked for. */
+static char *
+places_query(PlacesAsked *asked, int shard)
+{
+	const Generation *generation = &asked->generation;
+	int			dimension = (int) generation->form.dimension;
+	char	   *mesh = generation_mesh(generation, shard);
+	uint64		first = shard == 0 ? 0 : generation->borders[shard - 1];
+	uint64		end = shard + 1 < generation->shards ? generation->borders[shard] : (uint64) PG_INT64_MAX;
+	char	   *settled = psprintf("abacus_shard_settled('%s', " UINT64_FORMAT ", " UINT64_FORMAT
+								   ", '%s}'::bigint[], '%s}'::double precision[])", mesh, first, end,
+								   asked->asked[shard].data, asked->asked_points[shard].data);
+	const char *const place[] = {"p.x", "p.y", "p.z"};
+	char	   *inner;
+
+	if (asked->coordinates > 0)
+		return psprintf("SELECT p.id AS place, r.* FROM %s AS p LEFT JOIN LATERAL (SELECT true AS found, f.* FROM %s AS f) "
+						"AS r ON true", settled, shard_call(asked->fcinfo, mesh, dimension, place));
+	inner = quote_literal_cstr(psprintf("SELECT id, x, y%s FROM %s", dimension == 2 ? "" : ", z", settled));
+	return psprintf("SELECT r.id AS place, true AS found, r.* FROM %s AS r",
+					shard_call(asked->fcinfo, mesh, 1, (const char *const *) &inner));
+}
+
+static void
+take_answers(PlacesAsked *asked, int shard)
+{
+	for (uint64 i = 0; i < SPI_processed; i++)
+	{
+		HeapTuple	row = SPI_tuptable->vals[i];
+		bool		isnull;
+		bool		not_found;
+		int64		place = DatumGetInt64(SPI_getbinval(row, SPI_tuptable->tupdesc, 1, &isnull));
+
+		if (isnull || place < 0 || place >= asked->count)
+			elog(ERROR, "a server returned a place that it was not asked for");
+		if (asked->settled[place] != NOT_SETTLED && asked->settled[place] != shard)
+			continue;			/* another one has given the same answer */
+		asked->settled[place] = shard;
+		(void) SPI_getbinval(row, SPI_tuptable->tupdesc, 2, &not_found);
+		if (!not_found)
+			asked->put(asked, (int) place, row, SPI_tuptable->tupdesc);
+	}
+	SPI_freetuptable(SPI_tuptable);
+}
+
+/* Asks all shards for which there are places. */
+static void
+ask_shards(PlacesAsked *asked, ShardLinks *links)
+{
+	MemoryContext scratch = AllocSetContextCreate(CurrentMemoryContext, "Abacus places", ALLOCSET_DEFAULT_SIZES);
+	MemoryContext old = MemoryContextSwitchTo(scratch);
+
+	for (int i = 0; i < links->count; i++)
+		if (asked->asked[i].len > 0)
+			link_send(links, i, places_query(asked, i));
+	for (int i = 0; i < links->count; i++)
+	{
+		if (asked->asked[i].len == 0)
+			continue;
+		(void) link_rows(links, i, asked->columns);
+		take_answers(asked, i);
+		resetStringInfo(&asked->asked[i]);
+		resetStringInfo(&asked->asked_points[i]);
+	}
+	MemoryContextSwitchTo(old);
+	MemoryContextDelete(scratch);
+}
+
+/* Whether a place may be in the mesh, which is within the box of its points. */
+static bool
+may_be_inside(const PlacesAsked *asked, int place)
+{
+	const abacus_box *extent = &asked->generation.extent;
+	int			dimension = (int) asked->generation.form.dimension;
+	bool		inside = asked->generation.points > 0;
+
+	for (int i = 0; i < dimension; i++)
+		inside &= extent->lower[i] <= asked->points[place * dimension + i] &&
+			asked->points[place * dimension + i] <= extent->upper[i];
+	return inside;
+}
+
+/* Answers the places that are there. */
+static void
+answer_places(PlacesAsked *asked, ShardLinks *links)
+{
+	const Generation *generation = &asked->generation;
+	int			dimension = (int) generation->form.dimension;
+
+	for (int i = 0; i < asked->count; i++)
+	{
+		abacus_error error;
+		uint64		code;
+
+		asked->settled[i] = NOT_SETTLED;
+		if (!may_be_inside(asked, i))
+			continue;
+		if (abacus_codes(&generation->form, asked->points + i * dimension, 1, &code, &error) != ABACUS_OK)
+			elog(ERROR, "could not compute a code: %s", error.message);
+		asked->owners[i] = (int) generation_owner(generation, code);
+		ask_for(asked, asked->owners[i], i);
+	}
+	ask_shards(asked, links);
+	for (int i = 0; i < asked->count; i++)
+		for (int shard = 0; shard < links->count; shard++)
+			if (asked->settled[i] == NOT_SETTLED && may_be_inside(asked, i) && shard != asked->owners[i])
+				ask_for(asked, shard, i);
+	ask_shards(asked, links);
+	for (int i = 0; i < asked->count; i++)
+		if (asked->settled[i] == NOT_SETTLED)
+			asked->put_outside(asked, i);
+	asked->count = 0;
+}
+
+static void
+put_nothing(PlacesAsked *asked, int place)
+{
+}
+
+/* Arguments that only a mesh on one server takes. */
+static void
+refuse_methods(FunctionCallInfo fcinfo)
+{
+	if (!shard_call_has_text(fcinfo, "method", "linear") || !shard_call_has_text(fcinfo, "outside", "null"))
+		ereport(ERROR,
+				(errcode(ERRCODE_FEATURE_NOT_SUPPORTED),
+				 errmsg("mesh \"%s\" lies on several servers, where values are linear, and NULL outside",
+						get_rel_name(PG_GETARG_OID(0))),
+				 errhint("Leave method and outside out.")));
+}
+
+static void
+open_places(PlacesAsked *asked, FunctionCallInfo fcinfo, ShardLinks *links)
+{
+	asked->fcinfo = fcinfo;
+	refuse_methods(fcinfo);
+	generation_require_published(PG_GETARG_OID(0), &asked->generation);
+	links_prepare(links, asked->generation.servers, asked->generation.shards);
+	begin_places(asked);
+}
+
+/* ---- One place ------------------------------------------------------------------------------ */
+
+/* The place in the arguments; false if a coordinate is infinite. */
+static bool
+place_argument(FunctionCallInfo fcinfo, int coordinates, const abacus_form *form, double *point)
+{
+	bool		finite = true;
+
+	if (coordinates != (int) form->dimension)
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+				 errmsg("z is %s, but the mesh has dimension %u", form->dimension == 2 ? "given" : "missing",
+						form->dimension),
+				 errhint("Give as many coordinates as the mesh has.")));
+	for (int i = 0; i < coordinates; i++)
+	{
+		point[i] = PG_GETARG_FLOAT8(1 + i);
+		if (isnan(point[i]))
+			ereport(ERROR,
+					(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+					 errmsg("%c is not a number", "xyz"[i])));
+		finite &= isfinite(point[i]) != 0;
+	}
+	return finite;
+}
+
+/* The same, where an infinite one is also an error. */
+void
+shard_read_finite_place(FunctionCallInfo fcinfo, int coordinates, const abacus_form *form, double *point)
+{
+	if (!place_argument(fcinfo, coordinates, form, point))
+		ereport(ERROR,
+				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+				 errmsg("a coordinate of the place is infinite"),
+				 errhint("Give finite coordinates.")));
+}
+
+static bool
+place_of_arguments(PlacesAsked *asked, FunctionCallInfo fcinfo, int coordinates)
+{
+	bool		finite = place_argument(fcinfo, coordinates, &asked->generation.form, asked->points);
+
+	asked->coordinates = coordinates;
+	asked->ids[0] = 0;
+	asked->count = finite ? 1 : 0;
+	return finite;
+}
+
+static void
+answer_place(ShardLinks *links, void *context)
+{
+	answer_places(context, links);
+}
+
+/* A single value, or a composite one: the columns of the row behind the first two. */
+static void
+keep_value(PlacesAsked *asked, int place, HeapTuple row, TupleDesc desc)
+{
+	bool		isnull;
+	Datum		values[MaxTupleAttributeNumber];
+	bool		nulls[MaxTupleAttributeNumber];
+
+	if (asked->desc == NULL)
+	{
+		values[0] = SPI_getbinval(row, desc, 3, &isnull);
+		asked->has_value = !isnull;
+		if (!isnull)
+			asked->value = SPI_datumTransfer(values[0], TupleDescAttr(desc, 2)->attbyval, TupleDescAttr(desc, 2)->attlen);
+	}
+	else
+	{
+		bool		any = false;
+
+		for (int i = 0; i < asked->desc->natts; i++)
+		{
+			values[i] = SPI_getbinval(row, desc, 3 + i, &nulls[i]);
+			any |= !nulls[i];
+		}
+		asked->has_value = any;
+		if (any)
+			asked->value = SPI_datumTransfer(HeapTupleGetDatum(heap_form_tuple(BlessTupleDesc(asked->desc), values, nulls)),
+											 false, -1);
+	}
+}
+
+/* The value of a function of a place; NULL outside. */
+Datum
+shard_read_place(FunctionCallInfo fcinfo, int coordinates)
+{
+	PlacesAsked asked = {.put = keep_value,.put_outside = put_nothing};
+	ShardLinks	links;
+	Oid			type;
+
+	for (int i = 0; i <= coordinates; i++)
+		if (PG_ARGISNULL(i))
+			PG_RETURN_NULL();
+	SPI_connect();
+	open_places(&asked, fcinfo, &links);
+	if (get_call_result_type(fcinfo, &type, &asked.desc) != TYPEFUNC_COMPOSITE)
+		asked.desc = NULL;
+	asked.columns = psprintf("place bigint, found boolean, %s",
+							 asked.desc == NULL ? psprintf("value %s", format_type_be(type))
+							 : shard_call_columns(asked.desc));
+	if (place_of_arguments(&asked, fcinfo, coordinates))
+		links_run(&links, answer_place, &asked);
+	SPI_finish();
+	if (!asked.has_value)
+		PG_RETURN_NULL();
+	PG_RETURN_DATUM(asked.value);
+}
+
+/* Adds a row to the result: the columns behind the first two. */
+static void
+put_row(PlacesAsked *asked, int place, HeapTuple row, TupleDesc desc)
+{
+	int			count = asked->set->setDesc->natts;
+	Datum	   *values = palloc(count * sizeof(Datum));
+	bool	   *nulls = palloc(count * sizeof(bool));
+
+	for (int i = 0; i < count; i++)
+		values[i] = SPI_getbinval(row, desc, 3 + i, &nulls[i]);
+	if (asked->coordinates == 0)
+		values[0] = Int64GetDatum(asked->ids[place]);
+	tuplestore_putvalues(asked->set->setResult, asked->set->setDesc, values, nulls);
+	pfree(values);
+	pfree(nulls);
+}
+
+/* The rows of a function of a place. */
+Datum
+shard_read_place_rows(FunctionCallInfo fcinfo, int coordinates)
+{
+	PlacesAsked asked = {.put = put_row,.put_outside = put_nothing,.set = (ReturnSetInfo *) fcinfo->resultinfo};
+	ShardLinks	links;
+
+	InitMaterializedSRF(fcinfo, 0);
+	for (int i = 0; i <= coordinates; i++)
+		if (PG_ARGISNULL(i))
+			PG_RETURN_NULL();
+	SPI_connect();
+	open_places(&asked, fcinfo, &links);
+	asked.columns = psprintf("place bigint, found boolean, %s", shard_call_columns(asked.set->setDesc));
+	if (place_of_arguments(&asked, fcinfo, coordinates))
+		links_run(&links, answer_place, &asked);
+	SPI_finish();
+	PG_RETURN_NULL();
+}
+
+/* ---- The places of a query ------------------------------------------------------------------ */
+
+/* A row with the id and nothing else. */
+static void
+put_bare_id(PlacesAsked *asked, int place)
+{
+	int			count = asked->set->setDesc->natts;
+	Datum	   *values = palloc0(count * sizeof(Datum));
+	bool	   *nulls = palloc(count * sizeof(bool));
+
+	memset(nulls, true, count * sizeof(bool));
+	values[0] = Int64GetDatum(asked->ids[place]);
+	nulls[0] = false;
+	tuplestore_putvalues(asked->set->setResult, asked->set->setDesc, values, nulls);
+	pfree(values);
+	pfree(nulls);
+}
+
+typedef struct QueryRead
+{
+	PlacesAsked *asked;
+	Source		source;
+	abacus_facts facts;
+} QueryRead;
+
+static void
+answer_query(ShardLinks *links, void *context)
+{
+	QueryRead  *read = context;
+	PlacesAsked *asked = read->asked;
+	int			words = 1 + (int) asked->generation.form.dimension;
+	const uint64 *records;
+	size_t		count;
+
+	source_open_places(&read->source, (abacus_names) {&read->facts, NULL});
+	while ((count = source_fetch(&read->source, &records)) > 0)
+	{
+		if (asked->count + (int) count > PLACES_AT_ONCE)
+			answer_places(asked, links);
+		for (size_t i = 0; i < count; i++)
+		{
+			const uint64 *record = records + i * words;
+
+			asked->ids[asked->count] = (int64) record[0];
+			memcpy(asked->points + asked->count * (words - 1), record + 1, (words - 1) * sizeof(double));
+			asked->count++;
+		}
+	}
+	source_close(&read->source);
+	answer_places(asked, links);
+}
+
+/* The rows of a function of a query's places; with `has_row_outside` also of those outside. */
+Datum
+shard_read_places(FunctionCallInfo fcinfo, bool has_row_outside)
+{
+	PlacesAsked asked = {
+		.put = put_row,.put_outside = has_row_outside ? put_bare_id : put_nothing,
+		.set = (ReturnSetInfo *) fcinfo->resultinfo
+	};
+	QueryRead	read = {&asked};
+	ShardLinks	links;
+
+	InitMaterializedSRF(fcinfo, 0);
+	if (PG_ARGISNULL(1))
+		PG_RETURN_NULL();
+	source_prepare(&read.source, text_to_cstring(PG_GETARG_TEXT_PP(1)));
+	open_places(&asked, fcinfo, &links);
+	read.facts.form = asked.generation.form;
+	asked.columns = psprintf("place bigint, found boolean, %s", shard_call_columns(asked.set->setDesc));
+	links_run(&links, answer_query, &read);
+	source_finish(&read.source);
+	PG_RETURN_NULL();
+}
