@@ -185,35 +185,44 @@ read_row(Generation *generation, const Datum *values, const bool *isnull)
 	"generation, phase, source, token, servers, dimension, attributes, lower, upper, least, greatest, borders, " \
 	"points, rounds, sent, simplices, names_given, domain_given"
 
-/*
- * Reads a generation; false if there is none. SPI must be connected; reading the table needs the privilege
- * to.
- */
-bool
-generation_read(Oid relid, WhichGeneration which, Generation *generation)
+/* The first row of those chosen; false if there is none. SPI must be connected. */
+static bool
+read_first(Oid relid, const char *chosen, Generation *generation)
 {
-	static const char *const chosen[] = {
-		[NEWEST_GENERATION] = "ORDER BY generation DESC",
-		[PUBLISHED_GENERATION] = "WHERE phase OPERATOR(pg_catalog.=) 'published' ORDER BY generation DESC",
-		[OLDEST_GENERATION] = "ORDER BY generation"
-	};
 	Datum		values[GENERATION_COLUMNS];
 	bool		isnull[GENERATION_COLUMNS];
 
 	memset(generation, 0, sizeof(*generation));
 	generation->relid = relid;
-	if (!query_first(psprintf("SELECT " ALL_COLUMNS " FROM %s %s LIMIT 1", lines_table_name(relid), chosen[which]),
+	if (!query_first(psprintf("SELECT " ALL_COLUMNS " FROM %s %s LIMIT 1", lines_table_name(relid), chosen),
 					 values, isnull, GENERATION_COLUMNS))
 		return false;
 	read_row(generation, values, isnull);
 	return true;
 }
 
+/* Reads the newest generation, or the newest that is published. */
+bool
+generation_read(Oid relid, bool published, Generation *generation)
+{
+	return read_first(relid, published
+					  ? "WHERE phase OPERATOR(pg_catalog.=) 'published' ORDER BY generation DESC"
+					  : "ORDER BY generation DESC", generation);
+}
+
+/* Reads the first one after the generation with this number. */
+bool
+generation_read_after(Oid relid, int64 number, Generation *generation)
+{
+	return read_first(relid, psprintf("WHERE generation OPERATOR(pg_catalog.>) '" INT64_FORMAT "' ORDER BY generation",
+									  number), generation);
+}
+
 /* The generation that readers see, or an error. */
 void
 generation_require_published(Oid relid, Generation *generation)
 {
-	if (!generation_read(relid, PUBLISHED_GENERATION, generation))
+	if (!generation_read(relid, true, generation))
 		ereport(ERROR,
 				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
 				 errmsg("mesh \"%s\" has not been built", get_rel_name(relid)),

@@ -41,15 +41,8 @@ typedef struct Generation
 	int64		simplices;		/* of all shards, each counted by its owner */
 } Generation;
 
-/* Which generation is read. */
-typedef enum WhichGeneration
-{
-	NEWEST_GENERATION,
-	PUBLISHED_GENERATION,		/* the newest that is */
-	OLDEST_GENERATION
-} WhichGeneration;
-
-extern bool generation_read(Oid relid, WhichGeneration which, Generation *generation);
+extern bool generation_read(Oid relid, bool published, Generation *generation);
+extern bool generation_read_after(Oid relid, int64 number, Generation *generation);
 extern void generation_require_published(Oid relid, Generation *generation);
 extern void generation_insert(const Generation *generation);
 extern void generation_update(const Generation *generation);

@@ -238,7 +238,10 @@ spread_queries(Spreading *spreading, ShardLinks *links)
 	for (int i = 0; i < generation->shards; i++)
 		(void) relay_exported(generation, links, i, shard_sql_arrive);
 	for (int i = 0; i < generation->shards; i++)
+	{
+		link_finish(links, i);
 		link_send(links, i, shard_sql_stage_arrived(generation, i, queries[i]));
+	}
 }
 
 void

@@ -212,9 +212,9 @@ begin_anew(Generation *generation, const char *source)
 static void
 drop_before(const Generation *kept)
 {
-	Generation	old;
+	Generation	old = {.number = -1};
 
-	while (generation_read(kept->relid, OLDEST_GENERATION, &old) && old.number < kept->number)
+	while (generation_read_after(kept->relid, old.number, &old) && old.number < kept->number)
 	{
 		drop_generation(&old);
 		generation_forget(&old);
@@ -226,7 +226,7 @@ drop_before(const Generation *kept)
 static void
 choose_generation(Oid relid, const char *source, Generation *generation)
 {
-	if (!generation_read(relid, NEWEST_GENERATION, generation))
+	if (!generation_read(relid, false, generation))
 		ereport(ERROR,
 				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
 				 errmsg("the table of mesh \"%s\" is empty", get_rel_name(relid)),
@@ -362,7 +362,7 @@ abacus_sql_shard_build_each(PG_FUNCTION_ARGS)
 	source.queries = palloc(Max(1, count) * sizeof(char *));
 	for (int i = 0; i < count; i++)
 		source.queries[i] = TextDatumGetCString(queries[i]);
-	if (mesh_is_sharded(PG_GETARG_OID(0)) && generation_read(PG_GETARG_OID(0), NEWEST_GENERATION, &generation) &&
+	if (mesh_is_sharded(PG_GETARG_OID(0)) && generation_read(PG_GETARG_OID(0), false, &generation) &&
 		count != generation.shards)
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
@@ -381,17 +381,13 @@ abacus_sql_shard_drop(PG_FUNCTION_ARGS)
 {
 	Oid			relid = PG_GETARG_OID(0);
 	LockRelId	lock;
-	Generation	generation;
+	Generation	generation = {.number = -1};
 
 	PreventCommandIfReadOnly("abacus_shard_drop()");
 	SPI_connect();
 	lock = lock_table(relid);
-	while (generation_read(relid, OLDEST_GENERATION, &generation))
-	{
+	while (generation_read_after(relid, generation.number, &generation))
 		drop_generation(&generation);
-		generation_forget(&generation);
-		CommandCounterIncrement();
-	}
 	utility_run(psprintf("DROP TABLE %s", lines_table_name(relid)));
 	UnlockRelationIdForSession(&lock, ShareUpdateExclusiveLock);
 	SPI_finish();

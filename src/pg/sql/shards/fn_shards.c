@@ -89,7 +89,7 @@ abacus_sql_shards(PG_FUNCTION_ARGS)
 	InitMaterializedSRF(fcinfo, 0);
 	mesh_require_sharded(relid);
 	SPI_connect();
-	if (generation_read(relid, NEWEST_GENERATION, &generation))
+	if (generation_read(relid, false, &generation))
 	{
 		links_prepare(&links, generation.servers, generation.shards);
 		links_run(&links, list_shards, &listing);
