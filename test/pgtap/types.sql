@@ -11,6 +11,7 @@ SELECT has_type('abacus_region_part');
 SELECT has_type('abacus_thinning');
 SELECT has_type('abacus_step_values');
 SELECT has_type('abacus_level');
+SELECT has_type('abacus_shard_generation');
 SELECT is(typstorage::text || typalign::text, 'pd', 'pages are plain and aligned to doubles')
 FROM pg_type WHERE typname = 'abacus_page';
 SELECT has_cast('bytea', 'abacus_page');
@@ -153,6 +154,17 @@ INSERT INTO wanted VALUES
     ('abacus_levels', 'mesh regclass, errors double precision[], attribute text DEFAULT NULL::text, OUT level integer, OUT level_mesh regclass, OUT error double precision, OUT vertices bigint', 'SETOF record', 'v', false, 'u'),
     ('abacus_levels_refresh', 'mesh regclass, OUT level integer, OUT level_mesh regclass, OUT error double precision, OUT vertices bigint', 'SETOF record', 'v', true, 'u'),
     ('abacus_levels_drop', 'mesh regclass', 'integer', 'v', true, 'u'),
+    ('abacus_shard_begin', 'mesh text, dimension integer, attributes text[], lower double precision[], upper double precision[]', 'regclass', 'v', false, 'u'),
+    ('abacus_shard_build', 'IN mesh regclass, IN query text', NULL, 'v', false, 'u'),
+    ('abacus_shard_build', 'IN mesh regclass, IN queries text[]', NULL, 'v', false, 'u'),
+    ('abacus_shard_create', 'mesh text, servers text[], dimension integer DEFAULT 2, attributes text[] DEFAULT NULL::text[], lower double precision[] DEFAULT NULL::double precision[], upper double precision[] DEFAULT NULL::double precision[]', 'regclass', 'v', false, 'u'),
+    ('abacus_shard_drop', 'mesh regclass', 'void', 'v', true, 'u'),
+    ('abacus_shard_exports', 'mesh regclass, borders bigint[], own integer, "least" double precision[], "greatest" double precision[], OUT shard integer, OUT id bigint, OUT x double precision, OUT y double precision, OUT z double precision, OUT attributes double precision[]', 'SETOF record', 's', true, 's'),
+    ('abacus_shard_owner', 'lower double precision[], upper double precision[], borders bigint[], place double precision[]', 'integer', 'i', true, 's'),
+    ('abacus_shard_settled', 'mesh regclass, first bigint, "end" bigint, ids bigint[], places double precision[], OUT id bigint, OUT x double precision, OUT y double precision, OUT z double precision', 'SETOF record', 's', true, 's'),
+    ('abacus_shard_survey', 'query text, dimension integer, lower double precision[] DEFAULT NULL::double precision[], upper double precision[] DEFAULT NULL::double precision[], OUT points bigint, OUT attributes text[], OUT "least" double precision[], OUT "greatest" double precision[], OUT sample double precision[]', 'record', 'v', false, 'u'),
+    ('abacus_shard_take', 'mesh regclass, query text', 'bigint', 'v', true, 'u'),
+    ('abacus_shards', 'mesh regclass, OUT shard integer, OUT server text, OUT shard_mesh text, OUT first bigint, OUT "end" bigint, OUT state text, OUT doing text, OUT points bigint, OUT guests bigint, OUT bytes bigint', 'SETOF record', 'v', true, 'u'),
     ('abacus_level', 'mesh regclass, max_error double precision', 'regclass', 's', true, 's'),
     ('abacus_volume', 'mesh regclass, base double precision, attribute text DEFAULT NULL::text, lower double precision[] DEFAULT NULL::double precision[], upper double precision[] DEFAULT NULL::double precision[], max_edge double precision DEFAULT NULL::double precision, within text DEFAULT NULL::text, OUT area double precision, OUT surface double precision, OUT cut double precision, OUT fill double precision, OUT net double precision', 'record', 's', false, 's'),
     ('abacus_volume', 'mesh regclass, other regclass, attribute text DEFAULT NULL::text, lower double precision[] DEFAULT NULL::double precision[], upper double precision[] DEFAULT NULL::double precision[], max_edge double precision DEFAULT NULL::double precision, other_attribute text DEFAULT NULL::text, within text DEFAULT NULL::text, OUT area double precision, OUT surface double precision, OUT cut double precision, OUT fill double precision, OUT net double precision', 'record', 's', false, 's'),

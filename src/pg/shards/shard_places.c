@@ -1,16 +1,12 @@
 /*
- * shard_read.c: questions to a mesh over several servers: the same functions, called on the servers.
+ * shard_places.c: questions to a mesh over several servers about places: the same functions, called on the
+ * servers.
  *
- * Windows. Each simplex and each point belongs to one shard; each server returns what belongs to its own.
- *
- * Places. A shard can answer for a place if each simplex around it there has a corner that the shard
+ * A shard can answer for a place if each simplex around it there has a corner that the shard
  * owns: then these are all simplices of the whole mesh around that place, and the answer is that of one
  * server. First each place is sent to the shard that owns its code. What that one cannot answer goes to
  * all others: the owner of a corner of the simplex around the place can. If none can, the place is
  * outside. Places are dealt with some thousand at a time, which bounds the memory.
- *
- * Meshes on the servers are those of one published generation, which no build changes. So the answers of
- * all servers are from the same mesh.
  */
 #include "postgres.h"
 
@@ -23,80 +19,9 @@
 
 #include "pg/input/source.h"
 #include "pg/mesh/mesh.h"
-#include "pg/mesh/mesh_cache.h"
 #include "pg/shards/shard_call.h"
 #include "pg/shards/shard_read.h"
 #include "pg/shards/shard_sql.h"
-
-/* Whether a function's first argument is a mesh over several servers. */
-bool
-is_over_shards(FunctionCallInfo fcinfo)
-{
-	return !PG_ARGISNULL(0) && mesh_cache_peek(PG_GETARG_OID(0)) == NULL && mesh_is_sharded(PG_GETARG_OID(0));
-}
-
-/* ---- Everything, or a window ---------------------------------------------------------------- */
-
-typedef struct RowsRead
-{
-	FunctionCallInfo fcinfo;
-	ReturnSetInfo *set;
-	Generation	generation;
-	ShardRows	rows;
-} RowsRead;
-
-static char *
-owned_rows(const RowsRead *read, int shard)
-{
-	char	   *mesh = generation_mesh(&read->generation, shard);
-
-	if (read->rows == ROWS_BY_CODE)
-		return shard_sql_interval(&read->generation, shard, "r.code");
-	return psprintf("NOT EXISTS (SELECT FROM %s_guests AS g WHERE g.x = r.x AND g.y = r.y AND "
-					"g.z = coalesce(r.z, 0))", mesh);
-}
-
-/* Copies the rows of the last query to the result. */
-static void
-take_rows(ReturnSetInfo *set)
-{
-	for (uint64 i = 0; i < SPI_processed; i++)
-		tuplestore_puttuple(set->setResult, SPI_tuptable->vals[i]);
-	SPI_freetuptable(SPI_tuptable);
-}
-
-static void
-read_rows(ShardLinks *links, void *context)
-{
-	RowsRead   *read = context;
-	char	   *columns = shard_call_columns(read->set->setDesc);
-
-	for (int i = 0; i < links->count; i++)
-		link_send(links, i, psprintf("SELECT r.* FROM %s AS r WHERE %s",
-									 shard_call(read->fcinfo, generation_mesh(&read->generation, i), 0, NULL),
-									 owned_rows(read, i)));
-	for (int i = 0; i < links->count; i++)
-	{
-		(void) link_rows(links, i, columns);
-		take_rows(read->set);
-	}
-}
-
-/* The rows of a function, of all shards. */
-Datum
-shard_read_rows(FunctionCallInfo fcinfo, ShardRows rows)
-{
-	RowsRead	read = {.fcinfo = fcinfo,.set = (ReturnSetInfo *) fcinfo->resultinfo,.rows = rows};
-	ShardLinks	links;
-
-	InitMaterializedSRF(fcinfo, 0);
-	SPI_connect();
-	generation_require_published(PG_GETARG_OID(0), &read.generation);
-	links_prepare(&links, read.generation.servers, read.generation.shards);
-	links_run(&links, read_rows, &read);
-	SPI_finish();
-	PG_RETURN_NULL();
-}
 
 /* ---- Places --------------------------------------------------------------------------------- */
 
@@ -245,8 +170,9 @@ may_be_inside(const PlacesAsked *asked, int place)
 
 /* Answers the places that are there. */
 static void
-answer_places(PlacesAsked *asked, ShardLinks *links)
+answer_places(ShardLinks *links, void *context)
 {
+	PlacesAsked *asked = context;
 	const Generation *generation = &asked->generation;
 	int			dimension = (int) generation->form.dimension;
 
@@ -350,12 +276,6 @@ place_of_arguments(PlacesAsked *asked, FunctionCallInfo fcinfo, int coordinates)
 	return finite;
 }
 
-static void
-answer_place(ShardLinks *links, void *context)
-{
-	answer_places(context, links);
-}
-
 /* A single value, or a composite one: the columns of the row behind the first two. */
 static void
 keep_value(PlacesAsked *asked, int place, HeapTuple row, TupleDesc desc)
@@ -406,7 +326,7 @@ shard_read_place(FunctionCallInfo fcinfo, int coordinates)
 							 asked.desc == NULL ? psprintf("value %s", format_type_be(type))
 							 : shard_call_columns(asked.desc));
 	if (place_of_arguments(&asked, fcinfo, coordinates))
-		links_run(&links, answer_place, &asked);
+		links_run(&links, answer_places, &asked);
 	SPI_finish();
 	if (!asked.has_value)
 		PG_RETURN_NULL();
@@ -445,7 +365,7 @@ shard_read_place_rows(FunctionCallInfo fcinfo, int coordinates)
 	open_places(&asked, fcinfo, &links);
 	asked.columns = psprintf("place bigint, found boolean, %s", shard_call_columns(asked.set->setDesc));
 	if (place_of_arguments(&asked, fcinfo, coordinates))
-		links_run(&links, answer_place, &asked);
+		links_run(&links, answer_places, &asked);
 	SPI_finish();
 	PG_RETURN_NULL();
 }
@@ -488,7 +408,7 @@ answer_query(ShardLinks *links, void *context)
 	while ((count = source_fetch(&read->source, &records)) > 0)
 	{
 		if (asked->count + (int) count > PLACES_AT_ONCE)
-			answer_places(asked, links);
+			answer_places(links, asked);
 		for (size_t i = 0; i < count; i++)
 		{
 			const uint64 *record = records + i * words;
@@ -499,7 +419,7 @@ answer_query(ShardLinks *links, void *context)
 		}
 	}
 	source_close(&read->source);
-	answer_places(asked, links);
+	answer_places(links, asked);
 }
 
 /* The rows of a function of a query's places; with `has_row_outside` also of those outside. */
