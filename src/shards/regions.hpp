@@ -17,6 +17,7 @@
 
 #include "geometry/box.hpp"
 #include "geometry/predicates.hpp"
+#include "geometry/quick_sphere_box.hpp"
 #include "geometry/sphere_box.hpp"
 #include "host/arena.hpp"
 #include "keys/locational_code.hpp"
@@ -61,7 +62,8 @@ public:
             };
             descend(0, meets, visit);
         } else {
-            const Box<D> sphere = sphere_box<D>(corners);
+            Box<D> sphere;
+            if (!quick_sphere_box<D>(corners, sphere)) sphere = sphere_box<D>(corners);
             descend(
                 0, [&](const Box<D> &box) { return may_meet<D>(sphere, box); }, visit);
         }

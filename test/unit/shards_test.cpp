@@ -329,6 +329,46 @@ TYPED_TEST(Shards, ReportEveryRegionWithAPointInConflict) {
     EXPECT_GT(quiet, 1000u); // so not all regions are reported always
 }
 
+TYPED_TEST(Shards, EncloseSpheresInDoublesOrSayThatTheyCannot) {
+    constexpr int D = TypeParam::value;
+    int certain = 0, tests = 0;
+    for (int n = 0; n < 4000; ++n) {
+        const double size = std::ldexp(1.0, static_cast<int>(this->random() % 120) - 60);
+        const double flat = std::ldexp(1.0, -static_cast<int>(this->random() % 50));
+        std::array<Point<D>, D + 1> points;
+        Corners<D> corners;
+        for (int c = 0; c <= D; ++c) {
+            for (int k = 0; k < D; ++k)
+                points[c][k] = 3 + size * (unit(this->random) - 0.5) * (k == 0 ? flat : 1);
+            corners[c] = &points[c];
+        }
+        if (orientation<D>(corners) == 0) continue;
+        if (orientation<D>(corners) < 0) std::swap(corners[0], corners[1]);
+        Box<D> quick;
+        if (!quick_sphere_box<D>(corners, quick)) continue;
+        ++certain;
+        const Box<D> sure = sphere_box<D>(corners);
+        // The sphere touches each side of its box at the middle of the others.
+        for (int k = 0; k < D; ++k)
+            for (const double part : {0.0, 1e-14, 1e-12, 1e-10}) {
+                Point<D> p;
+                for (int j = 0; j < D; ++j) p[j] = sure.lower[j] / 2 + sure.upper[j] / 2;
+                for (const bool is_upper : {false, true}) {
+                    const double width = sure.upper[k] - sure.lower[k];
+                    p[k] = is_upper ? sure.upper[k] - part * width : sure.lower[k] + part * width;
+                    if (in_sphere(corners, p) <= 0) continue;
+                    ++tests;
+                    ASSERT_TRUE(quick.contains(p));
+                }
+            }
+        for (int k = 0; k < D; ++k) // not much too large either
+            EXPECT_LT(quick.upper[k] - quick.lower[k],
+                      (sure.upper[k] - sure.lower[k]) * 1.1 + 1e-10);
+    }
+    EXPECT_GT(certain, 1000);
+    EXPECT_GT(tests, 1000);
+}
+
 TYPED_TEST(Shards, CutTheCurveIntoEvenShares) {
     constexpr int D = TypeParam::value;
     std::vector<Point<D>> points(40000);

@@ -20,6 +20,7 @@
 #include "catalog/index.h"
 #include "catalog/pg_class.h"
 #include "catalog/pg_database.h"
+#include "catalog/pg_foreign_server.h"
 #include "catalog/pg_namespace.h"
 #include "commands/explain.h"
 #include "commands/tablecmds.h"
@@ -93,8 +94,9 @@ object_ownercheck(Oid class, Oid object, Oid role)
 static inline AclResult
 object_aclcheck(Oid class, Oid object, Oid role, AclMode mode)
 {
-	Assert(class == NamespaceRelationId);
-	return pg_namespace_aclcheck(object, role, mode);
+	Assert(class == NamespaceRelationId || class == ForeignServerRelationId);
+	return class == NamespaceRelationId ? pg_namespace_aclcheck(object, role, mode)
+		: pg_foreign_server_aclcheck(object, role, mode);
 }
 #endif
 

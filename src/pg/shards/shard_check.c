@@ -143,7 +143,7 @@ check_shards(ShardLinks *links, void *context)
 		link_do(links, i, psprintf("BEGIN ISOLATION LEVEL REPEATABLE READ; %s", shard_sql_make_room()));
 	for (int i = 0; i < links->count; i++)
 		link_send(links, i, shard_sql_strangers(generation, i));
-	collect_counts(examination, links, "points that another shard owns are not listed as guests");
+	collect_counts(examination, links, "points that another shard owns are not listed as guests, or listed and not there");
 	send_vertices(examination, links, shard_sql_list_guests);
 	for (int i = 0; i < links->count; i++)
 		link_send(links, i, shard_sql_count_unknown(generation, i));

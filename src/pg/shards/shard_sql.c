@@ -282,15 +282,18 @@ shard_sql_receive(const Generation *generation, int from, int shard, const Point
 
 /* ---- The check ------------------------------------------------------------------------------ */
 
-/* How many points the shard has that it does not own, besides its guests. */
+/* How many points the shard has that it does not own, besides its guests, and how many guests are missing. */
 char *
 shard_sql_strangers(const Generation *generation, int shard)
 {
 	char	   *mesh = generation_mesh(generation, shard);
 
-	return psprintf("SELECT count(*) FROM abacus_vertices('%s') AS v WHERE %s <> %d AND NOT EXISTS "
-					"(SELECT FROM %s_guests AS g WHERE g.x = v.x AND g.y = v.y AND g.z = coalesce(v.z, 0))",
-					mesh, query_owner(generation), shard, mesh);
+	return psprintf("WITH v AS MATERIALIZED (SELECT id, x, y, z FROM abacus_vertices('%1$s')) "
+					"SELECT (SELECT count(*) FROM v WHERE %2$s <> %3$d AND NOT EXISTS "
+					"(SELECT FROM %1$s_guests AS g WHERE g.x = v.x AND g.y = v.y AND g.z = coalesce(v.z, 0))) + "
+					"(SELECT count(*) FROM %1$s_guests AS g WHERE g.inserted AND NOT EXISTS "
+					"(SELECT FROM v WHERE g.x = v.x AND g.y = v.y AND g.z = coalesce(v.z, 0)))",
+					mesh, query_owner(generation), shard);
 }
 
 /* Lists the guests, for their owners. */
