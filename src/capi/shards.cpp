@@ -132,8 +132,8 @@ template <int D> int order_by_nearness(const double *place, const double *a, con
 abacus_status abacus_compare_nearness(uint32_t dimension, const double *place, const double *a,
                                       const double *b, int *order, abacus_error *error) {
     return abacus::guard(error, [&] {
-        *order = dimension == 2 ? order_by_nearness<2>(place, a, b)
-                                : order_by_nearness<3>(place, a, b);
+        *order =
+            dimension == 2 ? order_by_nearness<2>(place, a, b) : order_by_nearness<3>(place, a, b);
         return ABACUS_OK;
     });
 }
