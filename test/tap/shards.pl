@@ -164,6 +164,8 @@ fails("SELECT * FROM abacus_interpolate('many', 'TABLE places', outside => 'near
 fails("SELECT abacus_locate('many', 'NaN', 1)", qr/22023.*x is not a number/, 'a NaN');
 fails("SELECT abacus_locate('many', 1, 1, 1)", qr/22023.*z is given/, 'a coordinate too many');
 fails("SELECT * FROM abacus_nearest('many', 1, 1, 0)", qr/22023.*k must be at least 1/, 'no vertices');
+fails("SET max_parallel_workers_per_gather = 2; SET parallel_setup_cost = 0; SET parallel_tuple_cost = 0; SET min_parallel_table_scan_size = 0; SELECT count(abacus_interpolate('many', x, y)) FROM places",
+	qr/25000.*in a parallel query/, 'a parallel query');
 fails("SELECT * FROM abacus_shards('one')", qr/42809.*is not a mesh over several servers/, 'a mesh of one server');
 fails("BEGIN; CALL abacus_shard_build('many', 'SELECT 1, 2, 3, 4')", qr/2D000.*cannot commit/, 'a transaction block');
 fails("CALL abacus_shard_build('many', ARRAY['SELECT 1, 2, 3, 4'])", qr/22023.*1 queries for 4 servers/, 'queries are missing');
@@ -228,7 +230,24 @@ for my $kill (1 .. $kills)
 	is($node->safe_psql('postgres', "SELECT * FROM abacus_check('hit')"), '', "kill $kill: sound");
 }
 
+# A cancelled build ends at once, and leaves nothing running on the servers.
+{
+	my ($out, $err) = ('', '');
+	my $session = IPC::Run::start([ 'psql', '-XqAt', '-d', $node->connstr('postgres'),
+			'-c', "CALL abacus_shard_build('hit', 'SELECT i, (i * 0.7548776662466927) % 1, (i * 0.5698402909980532) % 1, i FROM generate_series(1, 400000) AS i')" ],
+		'>', \$out, '2>', \$err);
+	usleep(1_500_000);
+	my $started = time;
+	is($node->safe_psql('postgres', "SELECT pg_cancel_backend(pid) FROM pg_stat_activity WHERE query LIKE 'CALL abacus_shard_build%'"), 't', 'a build is running');
+	$session->finish;
+	like($err, qr/canceling statement due to user request/, 'cancelled');
+	cmp_ok(time - $started, '<', 5, 'at once');
+	ok($node->poll_query_until('postgres', "SELECT count(*) = 0 FROM pg_stat_activity WHERE datname LIKE 'shard%' AND backend_type = 'client backend'"), 'nothing runs on the servers');
+	is($node->safe_psql('postgres', "SELECT value FROM abacus_stats('hit') WHERE name = 'points'"), 4000, 'the former mesh is there');
+}
+
 # Damage is found.
+$node->safe_psql('postgres', "CALL abacus_shard_build('hit', '$builds[0]')");
 my ($mesh, $there) = split /\|/, $node->safe_psql('postgres', "SELECT shard_mesh, server FROM abacus_shards('hit') WHERE shard = 2");
 $node->safe_psql('shard2', "CREATE TABLE kept AS TABLE ${mesh}_guests; UPDATE ${mesh}_guests SET id = id + 1 WHERE ctid = (SELECT min(ctid) FROM ${mesh}_guests)");
 like($node->safe_psql('postgres', "SELECT * FROM abacus_check('hit')"), qr/^shards\|\|\|shard \d: 1 of its points are guests of other shards, with another id/m, 'a guest with another id');

@@ -13,7 +13,6 @@
  */
 #include "postgres.h"
 
-#include "access/parallel.h"
 #include "access/xact.h"
 #include "catalog/pg_foreign_server.h"
 #include "catalog/pg_type.h"
@@ -117,10 +116,10 @@ links_prepare(ShardLinks *links, char **servers, int count)
 				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
 				 errmsg("a mesh over several servers needs the extension dblink"),
 				 errhint("CREATE EXTENSION dblink.")));
-	if (IsParallelWorker())
+	if (IsInParallelMode())
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_TRANSACTION_STATE),
-				 errmsg("cannot access a mesh over several servers in a parallel worker"),
+				 errmsg("cannot access a mesh over several servers in a parallel query"),
 				 errhint("SET max_parallel_workers_per_gather = 0 for this query.")));
 	links->count = count;
 	links->servers = servers;
