@@ -72,7 +72,7 @@ RETURNS bigint
 AS 'MODULE_PATHNAME', 'abacus_sql_store'
 LANGUAGE C VOLATILE PARALLEL UNSAFE;
 COMMENT ON FUNCTION abacus_store(regclass, bigint, integer, integer, text, text) IS
-    'stores the values of one part''s vertices at one step, in place of those that it has stored before. They go into the table <mesh>_steps, which the first step makes. Returns the number of vertices. Shapes: the query returns id and numbers, a row for each vertex whose owner is the part. Errors: 22004 a NULL argument or id, 22023 parts or part out of range, an id that is not the part''s or is missing, 23505 an id twice, 42804 other columns, 42501 the first step by another than the owner, 42809 not a mesh';
+    'stores the values of one part''s vertices at one step, in place of those that it has stored before. They go into the table <mesh>_steps, which the first step makes. Returns the number of vertices. Shapes: the query returns id and numbers, a row for each vertex whose owner is the part. Errors: 22004 a NULL argument or id, 22023 parts or part out of range, an id that is not the part''s or is missing, 23505 an id twice, 42804 other columns, 55006 a statement that changes the mesh, 42501 the first step by another than the owner, 42809 not a mesh';
 
 CREATE FUNCTION abacus_steps(
     mesh regclass,

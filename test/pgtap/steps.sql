@@ -49,8 +49,8 @@ SELECT set_eq('TABLE before', 'TABLE plane_steps', 'nothing is stored');
 SELECT hasnt_table('plane_steps_8');
 -- a query that changes the mesh
 CREATE FUNCTION pg_temp.grow(mesh regclass, place int) RETURNS int LANGUAGE sql VOLATILE AS $$ SELECT abacus_insert(mesh, format('SELECT %s, 0.5, %s / 1000.0, 0', place, place))::int $$;
-SELECT throws_ok($$ SELECT abacus_store('plane', 1, 3, 0, 'SELECT id, CASE row_number() OVER () WHEN 1 THEN pg_temp.grow(''plane'', 701) END FROM pg_temp.own(''plane'', 3, 0)') $$, '55000', 'the statement that stores values also changes mesh "plane"', 'changes the mesh');
-SELECT throws_ok($$ SELECT pg_temp.grow('plane', 702), pg_temp.store('plane', 1, 3, 0) $$, '55000', 'the statement that stores values also changes mesh "plane"', 'so does another part of the statement');
+SELECT throws_ok($$ SELECT abacus_store('plane', 1, 3, 0, 'SELECT id, CASE row_number() OVER () WHEN 1 THEN pg_temp.grow(''plane'', 701) END FROM pg_temp.own(''plane'', 3, 0)') $$, '55006', 'the statement that stores values also changes mesh "plane"', 'changes the mesh');
+SELECT throws_ok($$ SELECT pg_temp.grow('plane', 702), pg_temp.store('plane', 1, 3, 0) $$, '55006', 'the statement that stores values also changes mesh "plane"', 'so does another part of the statement');
 SELECT is((SELECT count(*) FROM abacus_vertices('plane')), 500::bigint, 'the mesh is as it was');
 SELECT set_eq('TABLE before', 'TABLE plane_steps', 'and its steps');
 -- infinities are kept, NaN is NULL

@@ -140,7 +140,7 @@ refuse_own_changes(Oid mesh, uint64 stamp)
 	PopActiveSnapshot();
 	if (!is_same)
 		ereport(ERROR,
-				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
+				(errcode(ERRCODE_OBJECT_IN_USE),
 				 errmsg("the statement that stores values also changes mesh \"%s\"", get_rel_name(mesh)),
 				 errhint("Change the mesh first, in a statement of its own, and read the shares again.")));
 }
