@@ -42,7 +42,7 @@ static const char *const formats[] = {"quantized-mesh", "glb", NULL};
 static const char *const schemes[] = {"tms", "xyz", NULL};
 
 static Reader *
-open_surface(Oid mesh)
+open_surface(FunctionCallInfo fcinfo, Oid mesh)
 {
 	Reader	   *reader = reader_open(mesh, CurrentMemoryContext);
 
@@ -61,14 +61,14 @@ static Reader *
 open_mesh(FunctionCallInfo fcinfo, abacus_tile *tile)
 {
 	Oid			level = level_argument(fcinfo, &mesh_level);
-	Reader	   *reader = open_surface(PG_GETARG_OID(MESH_MESH));
+	Reader	   *reader = open_surface(fcinfo, PG_GETARG_OID(MESH_MESH));
 
 	tile_map(fcinfo, MESH_SRID, MESH_WORLD, &reader->header.facts.form, tile);
 	if (level == PG_GETARG_OID(MESH_MESH))
 		return reader;
 	host_release(reader->host);
 	host_destroy(reader->host);
-	return open_surface(level);
+	return open_surface(fcinfo, level);
 }
 
 /* What the coordinates are. */
