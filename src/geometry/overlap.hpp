@@ -41,16 +41,16 @@ inline constexpr std::array<std::array<int, 4>, 6> tetrahedron_edges{
 /// Whether a plane through an edge of a tetrahedron, and parallel to one of another, keeps their
 /// inner parts apart.
 inline bool are_kept_apart_at_edges(const Corners<3> &a, const Corners<3> &b) {
-    for (const auto &[a0, a1, a2, a3] : tetrahedron_edges)
-        for (const auto &edge : tetrahedron_edges) {
+    for (const auto &of_a : tetrahedron_edges)
+        for (const auto &of_b : tetrahedron_edges) {
             const auto side = [&](const Point<3> &p) {
-                return side_of_parallel(*a[a0], *a[a1], *b[edge[0]], *b[edge[1]], p);
+                return side_of_parallel(*a[of_a[0]], *a[of_a[1]], *b[of_b[0]], *b[of_b[1]], p);
             };
             // All of a on one side of the plane through its edge, and not all in it.
-            const int third = side(*a[a2]), fourth = side(*a[a3]);
+            const int third = side(*a[of_a[2]]), fourth = side(*a[of_a[3]]);
             const int own = third != 0 ? third : fourth;
             if (own == 0 || third * fourth < 0) continue;
-            const auto is_beyond = [&](int i) { return side(*b[edge[i]]) * own <= 0; };
+            const auto is_beyond = [&](int i) { return side(*b[of_b[i]]) * own <= 0; };
             if (is_beyond(0) && is_beyond(2) && is_beyond(3)) return true; // 1 is level with 0
         }
     return false;
