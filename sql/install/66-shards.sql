@@ -159,7 +159,7 @@ COMMENT ON FUNCTION abacus_shard_exports(regclass, bigint[], integer, double pre
 CREATE FUNCTION abacus_shard_settled(
     mesh regclass,
     "first" bigint,
-    "end" bigint,
+    "last" bigint,
     ids bigint[],
     places double precision[],
     OUT id bigint,
@@ -171,3 +171,10 @@ AS 'MODULE_PATHNAME', 'abacus_sql_shard_settled'
 LANGUAGE C STABLE STRICT PARALLEL SAFE COST 1000 ROWS 1000;
 COMMENT ON FUNCTION abacus_shard_settled(regclass, bigint, bigint, bigint[], double precision[]) IS
     'for the coordinator of a mesh over several servers: those of the places whose simplices a shard knows as they are in the whole mesh. Shapes: places has the coordinates of one place after the other. Units: those of the coordinates. Errors: 22023 arrays of other lengths';
+
+CREATE FUNCTION abacus_shard_count(mesh regclass, "first" bigint, "last" bigint)
+RETURNS bigint
+AS 'MODULE_PATHNAME', 'abacus_sql_shard_count'
+LANGUAGE C STABLE STRICT PARALLEL SAFE COST 100000;
+COMMENT ON FUNCTION abacus_shard_count(regclass, bigint, bigint) IS
+    'for the coordinator of a mesh over several servers: how many simplices have codes from the first to the last. Errors: 42809 not a mesh';

@@ -103,6 +103,9 @@ for my $name (sort keys %points)
 			$node->safe_psql('postgres', sprintf "SELECT abacus_shard_create('many', '%s', %d)", servers($count), $dimension);
 			$node->safe_psql('postgres', "CALL abacus_shard_build('many', '$query')");
 			is_same('many', 'one', $what);
+			# the vertices as places: some have the greatest code that there is
+			my $places = 'SELECT id, x, y' . ($dimension == 3 ? ', z' : '') . " FROM abacus_vertices(''one'') WHERE id % 3 = 0";
+			is(differing("abacus_locate(MESH, '$places')", 'many', 'one'), 0, "$what: places");
 			is($node->safe_psql('postgres', "SELECT * FROM abacus_check('many')"), '', "$what: sound");
 			is( $node->safe_psql('postgres', "SELECT m.value - o.value FROM abacus_stats('many') AS m JOIN abacus_stats('one') AS o USING (name) WHERE name IN ('points', 'vertices', 'duplicates', 'simplices') ORDER BY name"),
 				"0\n0\n0\n0", "$what: figures");

@@ -63,8 +63,8 @@ count_simplices(const Generation *generation, ShardLinks *links)
 	int64		count = 0;
 
 	for (int i = 0; i < links->count; i++)
-		link_send(links, i, psprintf("SELECT count(*) FROM abacus_simplices('%s') WHERE %s",
-									 generation_mesh(generation, i), shard_sql_interval(generation, i, "code")));
+		link_send(links, i, psprintf("SELECT abacus_shard_count('%s', %s)", generation_mesh(generation, i),
+									 shard_sql_stretch(generation, i)));
 	for (int i = 0; i < links->count; i++)
 	{
 		bool		isnull;

@@ -93,11 +93,8 @@ places_query(PlacesAsked *asked, int shard)
 	const Generation *generation = &asked->generation;
 	int			dimension = (int) generation->form.dimension;
 	char	   *mesh = generation_mesh(generation, shard);
-	uint64		first = shard == 0 ? 0 : generation->borders[shard - 1];
-	uint64		end = shard + 1 < generation->shards ? generation->borders[shard] : (uint64) PG_INT64_MAX;
-	char	   *settled = psprintf("abacus_shard_settled('%s', " UINT64_FORMAT ", " UINT64_FORMAT
-								   ", '%s}'::bigint[], '%s}'::double precision[])", mesh, first, end,
-								   asked->asked[shard].data, asked->asked_points[shard].data);
+	char	   *settled = psprintf("abacus_shard_settled('%s', %s, '%s}'::bigint[], '%s}'::double precision[])", mesh,
+								   shard_sql_stretch(generation, shard), asked->asked[shard].data, asked->asked_points[shard].data);
 	const char *const place[] = {"p.x", "p.y", "p.z"};
 	char	   *inner;
 

@@ -53,6 +53,19 @@ border_literal(const Generation *generation)
 	return literal.data;
 }
 
+/*
+ * The first and the last code that the shard owns; in space the greatest code is the greatest bigint. A
+ * shard that owns none ends before it begins.
+ */
+char *
+shard_sql_stretch(const Generation *generation, int shard)
+{
+	int64		first = shard == 0 ? 0 : (int64) generation->borders[shard - 1];
+	int64		last = shard + 1 < generation->shards ? (int64) generation->borders[shard] - 1 : PG_INT64_MAX;
+
+	return psprintf(INT64_FORMAT ", " INT64_FORMAT, first, last);
+}
+
 /* A condition that a code is the shard's own. */
 char *
 shard_sql_interval(const Generation *generation, int shard, const char *code)
@@ -187,12 +200,12 @@ shard_sql_make_room(void)
 char *
 shard_sql_others(const Generation *generation, int shard, const char *query)
 {
+	char	   *owner = query_owner(generation);
+
 	return psprintf("%s; INSERT INTO pg_temp.abacus_export "
-					"SELECT row_number() OVER (ORDER BY n), shard, id, x, y, z, attributes "
-					"FROM (SELECT row_number() OVER () AS n, %s AS shard, id, x, y, %s AS z, %s AS attributes FROM %s) "
-					"AS owned WHERE shard <> %d",
-					shard_sql_make_room(), query_owner(generation), generation->form.dimension == 2 ? "0" : "z",
-					attribute_list(generation->attribute_count), query_rows(generation, query), shard);
+					"SELECT row_number() OVER (), %s, id, x, y, %s, %s FROM %s WHERE %s <> %d",
+					shard_sql_make_room(), owner, generation->form.dimension == 2 ? "0" : "z",
+					attribute_list(generation->attribute_count), query_rows(generation, query), owner, shard);
 }
 
 /* Rows of another server's query come. */

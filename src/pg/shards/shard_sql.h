@@ -20,6 +20,7 @@ extern char *shard_sql_export(const Generation *generation, int shard);
 extern char *shard_sql_exported(int64 from, int64 to);
 extern char *shard_sql_receive(const Generation *generation, int from, int shard, const PointBatch *batch);
 extern const char *shard_sql_end_exchange(void);
+extern char *shard_sql_stretch(const Generation *generation, int shard);
 extern char *shard_sql_interval(const Generation *generation, int shard, const char *code);
 
 extern const char *shard_sql_make_room(void);

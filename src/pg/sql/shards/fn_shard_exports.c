@@ -1,6 +1,6 @@
 /*
  * fn_shard_exports.c: what the coordinator of a mesh over several servers asks a shard: which of its
- * vertices other shards need, and which places it can answer for.
+ * vertices other shards need, which places it can answer for, and how many simplices it owns.
  */
 #include "postgres.h"
 
@@ -9,6 +9,7 @@
 #include "funcapi.h"
 #include "utils/array.h"
 
+#include "abacus/scan.h"
 #include "abacus/shards.h"
 #include "pg/base/sql_function.h"
 #include "pg/mesh/mesh_cache.h"
@@ -19,6 +20,7 @@
 
 SQL_FUNCTION(abacus_sql_shard_exports);
 SQL_FUNCTION(abacus_sql_shard_settled);
+SQL_FUNCTION(abacus_sql_shard_count);
 
 /* Columns of the vertices */
 enum
@@ -127,8 +129,8 @@ abacus_sql_shard_exports(PG_FUNCTION_ARGS)
 typedef struct Around
 {
 	const abacus_form *form;
-	uint64		first;			/* the codes that the shard owns: from here */
-	uint64		end;			/* up to here */
+	int64		first;			/* the codes that the shard owns: from here */
+	int64		last;			/* to here */
 	bool		any;
 	bool		settled;		/* each has a corner of the shard's own */
 } Around;
@@ -147,7 +149,7 @@ look_at_simplex(void *context, const abacus_simplex *simplex)
 
 		if (abacus_codes(around->form, simplex->corner[i], 1, &code, &error) != ABACUS_OK)
 			return ABACUS_HOST_FAILED;
-		has_own |= around->first <= code && code < around->end;
+		has_own |= around->first <= (int64) code && (int64) code <= around->last;
 	}
 	around->any = true;
 	around->settled &= has_own;
@@ -155,7 +157,7 @@ look_at_simplex(void *context, const abacus_simplex *simplex)
 }
 
 /*
- * abacus_shard_settled(mesh regclass, first bigint, end bigint, ids bigint[], places float8[])
+ * abacus_shard_settled(mesh regclass, first bigint, last bigint, ids bigint[], places float8[])
  *     -> id, x, y, z
  *
  * A simplex with a corner of the shard's own is one of the mesh of all shards, and so are all others
@@ -170,7 +172,7 @@ abacus_sql_shard_settled(PG_FUNCTION_ARGS)
 	int			coordinates;
 	const uint64 *ids = words_argument(fcinfo, 3, "ids", &count);
 	const double *places = (const double *) words_argument(fcinfo, 4, "places", &coordinates);
-	Around		around = {.first = (uint64) PG_GETARG_INT64(1),.end = (uint64) PG_GETARG_INT64(2)};
+	Around		around = {.first = PG_GETARG_INT64(1),.last = PG_GETARG_INT64(2)};
 	int			dimension;
 
 	InitMaterializedSRF(fcinfo, 0);
@@ -200,4 +202,27 @@ abacus_sql_shard_settled(PG_FUNCTION_ARGS)
 	}
 	host_release(cached->host);
 	PG_RETURN_NULL();
+}
+
+/* ---- abacus_shard_count --------------------------------------------------------------------- */
+
+/* abacus_shard_count(mesh regclass, first bigint, last bigint) -> bigint */
+Datum
+abacus_sql_shard_count(PG_FUNCTION_ARGS)
+{
+	int64		first = PG_GETARG_INT64(1);
+	int64		last = PG_GETARG_INT64(2);
+	Reader	   *reader = reader_open(PG_GETARG_OID(0), CurrentMemoryContext);
+	Host	   *host = reader->host;
+	abacus_scan *scan = NULL;
+	abacus_simplex simplex;
+	int64		count = 0;
+
+	host_run(host, abacus_scan_open, &host->table, &reader->header.facts, 0, &scan);
+	host_own(host, scan, (void (*) (void *)) abacus_scan_close);
+	while (host_run(host, abacus_scan_next, scan, &simplex) != ABACUS_END)
+		count += first <= (int64) simplex.code && (int64) simplex.code <= last;
+	host_release(host);
+	host_destroy(host);
+	PG_RETURN_INT64(count);
 }
