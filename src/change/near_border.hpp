@@ -100,7 +100,7 @@ private:
     }
 
     /// In distances between neighbours once all points are in. Measured.
-    static constexpr double reach_in_steps = D == 2 ? 4 : 2.8, layer_in_steps = 0.2;
+    static constexpr double reach_in_steps = D == 2 ? 3 : 2.8, layer_in_steps = 0.2;
     /// In sides of the box.
     static constexpr double side_reach = 0.5;
     static constexpr int most_looks = 16; ///< each twice as far

@@ -66,7 +66,7 @@ private:
     };
     static constexpr std::size_t pieces = 8; ///< in the outbox, or empty
     /// Of a block. To hand one over costs some microseconds, most of them for waking up.
-    static constexpr std::size_t block_pieces = 4;
+    static constexpr std::size_t block_pieces = 8;
     static constexpr unsigned most_threads = 4;
 
     static std::size_t blocks_for(unsigned threads) {
