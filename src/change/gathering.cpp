@@ -22,7 +22,7 @@ constexpr std::size_t worth_reserving = 1 << 15;
 /// Share of the memory that pages on their way to threads may take.
 constexpr std::size_t in_hand_share = 8;
 /// Points that are gathered between two looks at what threads ask for: some microseconds.
-constexpr std::size_t served_every = 256;
+constexpr std::size_t served_every = 512;
 /// For tests: points of an interval on average, unless there would be too many of them.
 constexpr std::size_t tiny_interval = 4, most_tiny_intervals = 256;
 

@@ -19,6 +19,7 @@
 #include "geometry/box.hpp"
 #include "host/arena.hpp"
 #include "points/point_hash.hpp"
+#include "points/record.hpp"
 
 #include <cstdint>
 
@@ -33,6 +34,18 @@ public:
         box_.extend(p);
         const std::uint64_t hash = point_hash(p);
         if (hash < least_excluded_) add({hash, p});
+    }
+    /// The points of n records.
+    void add(const std::uint64_t *records, std::size_t n, std::size_t stride) {
+        Box<D> box = box_; // in registers
+        for (; n > 0; --n, records += stride) {
+            const Point<D> p = record_point<D>(records);
+            box.extend(p);
+            const std::uint64_t hash = point_hash(p);
+            if (hash < least_excluded_) [[unlikely]]
+                add({hash, p});
+        }
+        box_ = box;
     }
     /// Points of which only the box is known, and those of their sample, which are added besides.
     void extend(const Box<D> &box) { box_.extend(box); }

@@ -56,16 +56,14 @@ template <int D> void Stage<D>::fill_buffer(const std::uint64_t *points, std::si
 
 template <int D>
 void Stage<D>::copy(const std::uint64_t *points, std::size_t count, std::uint64_t *to) {
-    for (std::size_t i = 0; i < count; ++i, points += stride_, to += stride_) {
-        for (std::size_t word = 0; word < stride_; ++word) to[word] = points[word];
-        make_canonical<D>(to);
-        spread_.add(record_point<D>(to));
-    }
+    std::copy_n(points, count * stride_, to);
+    for (std::size_t i = 0; i < count; ++i) make_canonical<D>(to + i * stride_);
+    spread_.add(to, count, stride_);
     if (!domain_) return;
     const Box<D> inside(domain_->lower(), domain_->upper());
     if (inside.contains(spread_.box().lower) && inside.contains(spread_.box().upper)) return;
     for (std::size_t i = 0; i < count; ++i)
-        outside_ += !inside.contains(record_point<D>(to -= stride_));
+        outside_ += !inside.contains(record_point<D>(to + i * stride_));
 }
 
 /// Moves the buffer to spools. From the first time on, the buffer is small.
