@@ -97,7 +97,7 @@ like($lines, qr/^7\|1\|0\|0\|0\|soft\|\n7\|2\|99\|9\|9\|soft\|\n/, 'a mesh with 
 # How a mesh was thinned.
 sub thinning_of_mesh { return $node->safe_psql($_[0], q{SELECT * FROM thinned_thinning; SELECT count(*), sum(id) FROM abacus_vertices('thinned')}); }
 my $thinning = thinning_of_mesh('origin');
-like($thinning, qr/^public\.field\|-?\d+\|height\|900\|border\|\|[\d.]+\n/, 'a thinned mesh');
+like($thinning, qr/^public\.field\|-?\d+\|height\|900\|border\|\|[\d.]+\|\n/, 'a thinned mesh');
 
 # The levels of a mesh, and what is in them.
 sub levels_of_mesh
