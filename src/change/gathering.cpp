@@ -1,7 +1,6 @@
 #include "change/gathering.hpp"
 
 #include "blocks/counters.hpp"
-#include "change/near_border.hpp"
 #include "host/shared_loop.hpp"
 #include "keys/domain_of.hpp"
 #include "sort/pacer.hpp"
@@ -192,6 +191,7 @@ template <int D> bool Gathering<D>::begin_work() {
     left_.begin(working_.stride());
     how_ = user_->begin_sharing();
     if (working_.size() > 0 && begin_pass()) return true;
+    working_.drop_done();
     user_->end_sharing();
     store_in_hand();
     return false;
@@ -266,67 +266,62 @@ template <int D> void Gathering<D>::deal_with_left(std::size_t i) {
         user_->take_left(working_.record(i));
 }
 
-/// The points of one round after those of the other.
-template <int D> void Gathering<D>::insert_near_borders(const Cuts &cuts) {
-    Batch near(host_, working_.stride());
-    std::size_t kept = 0;
-    for (std::size_t run = 0; run < working_.runs(); ++run) {
-        const std::size_t begin = working_.run_begin(run), end = working_.run_end(run);
-        working_.set_run_begin(run, kept);
-        kept = insert_near_borders(cuts, begin, end, kept, near);
-    }
-    working_.shorten(kept);
-}
-
-/// Of points [from, to), which are of one round: moves the others to `kept` and returns their end.
 /// Threads find the points, of 32 at a time. Of points with one code all or none are inserted: so
 /// of equal ones.
-template <int D>
-std::size_t Gathering<D>::insert_near_borders(const Cuts &cuts, std::size_t from, std::size_t to,
-                                              std::size_t kept, Batch &near) {
+template <int D> void Gathering<D>::insert_near_borders(const Cuts &cuts) {
     using Border = NearBorder<D>;
+    using Marks = typename Border::Marks;
     constexpr std::size_t together = Border::together;
-    Arena<typename Border::Marks> marks(host_);
-    marks.resize((to - from + together - 1) / together);
+    const std::size_t n = working_.size(), words = (n + together - 1) / together;
+    Marks *const marks = working_.make_marks();
     SharedLoop(host_).each_stretch(
-        marks.size(), [&](std::size_t, std::size_t first, std::size_t last, const Host &host) {
+        words, [&](std::size_t, std::size_t first, std::size_t last, const Host &host) {
             Border border(work_.domain, domain_box<D>(work_.facts->form), cuts);
             Pacer(host).each_piece(last - first, [&](std::size_t begin, std::size_t end) {
-                for (std::size_t i = first + begin; i < first + end; ++i)
-                    marks[i] = border.marks(working_, from + i * together,
-                                            std::min(from + (i + 1) * together, to));
+                for (std::size_t word = first + begin; word < first + end; ++word)
+                    marks[word] = near_border(border, word);
             });
         });
+    Batch near(host_, working_.stride());
     const auto insert = [&] {
         if (near.size() > 0) user_->take(near.record(0), near.codes(), near.size());
-        done_ += near.size();
         near.shorten(0);
     };
-    std::uint64_t last = 0;
+    std::uint64_t last = 0; // the code before
     bool is_near = false;
-    for (std::size_t group = 0; group < marks.size(); ++group) {
-        const std::size_t begin = from + group * together, end = std::min(begin + together, to);
-        if (marks[group] == 0 && !(is_near && working_.code(begin) == last)) {
-            is_near = false;
-            last = working_.code(end - 1);
-            working_.move(begin, end - begin, kept);
-            kept += end - begin;
-            continue;
+    for (std::size_t word = 0; word < words; ++word) {
+        const std::size_t begin = word * together, end = std::min(begin + together, n);
+        for (std::size_t i = begin; i < end && is_near != working_.is_done(i); ++i) {
+            if (i == 0 || working_.code(i) != last) break;
+            marks[word] ^= Marks{1} << (i - begin);
         }
+        last = working_.code(end - 1);
+        is_near = working_.is_done(end - 1);
+        if (marks[word] == 0) continue;
         for (std::size_t i = begin; i < end; ++i) {
-            const std::uint64_t code = working_.code(i);
-            if (i == from || code != last) is_near = (marks[group] >> (i - begin) & 1) != 0;
-            last = code;
-            if (is_near)
-                near.add(working_.record(i), code);
-            else
-                working_.move(i, kept++);
+            if (working_.is_done(i)) near.add(working_.record(i), working_.code(i));
             if (near.size() == Workspace<D>::most_at_once) insert();
         }
         host_.poll();
     }
     insert();
-    return kept;
+}
+
+/// Marks those of the points of a word of marks that are near a border. They may be of several
+/// rounds.
+template <int D>
+typename NearBorder<D>::Marks Gathering<D>::near_border(NearBorder<D> &border,
+                                                        std::size_t word) const {
+    using Marks = typename NearBorder<D>::Marks;
+    const std::size_t begin = word * border.together,
+                      end = std::min(begin + border.together, working_.size());
+    Marks marks = 0;
+    for (std::size_t run = 0; run < working_.runs(); ++run) {
+        const std::size_t from = std::max(begin, working_.run_begin(run)),
+                          to = std::min(end, working_.run_end(run));
+        if (from < to) marks |= border.marks(working_, from, to) << (from - begin);
+    }
+    return marks;
 }
 
 template <int D> void Gathering<D>::hand_over(const Cuts &cuts) {

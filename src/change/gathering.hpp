@@ -28,6 +28,7 @@
 
 #include "change/cuts.hpp"
 #include "change/interval.hpp"
+#include "change/near_border.hpp"
 #include "change/pass.hpp"
 #include "change/workspace.hpp"
 #include "host/crew.hpp"
@@ -119,8 +120,7 @@ private:
     void take_results(const typename Interval<D>::Results &results, Arena<std::size_t> &put_off);
     /// Inserts gathered points that threads would put off.
     void insert_near_borders(const Cuts &cuts);
-    std::size_t insert_near_borders(const Cuts &cuts, std::size_t from, std::size_t to,
-                                    std::size_t kept, Batch &near);
+    typename NearBorder<D>::Marks near_border(NearBorder<D> &border, std::size_t word) const;
     void report_pass(std::uint64_t done);
     /// Hands the pages to the threads and begins with an empty cache.
     void hand_over(const Cuts &cuts);

@@ -80,6 +80,7 @@ void Interval<D>::insert(const Batch &batch, std::size_t from, std::size_t to, b
     cache_.expect_last_pass(true);
     std::size_t put_off = to; // the last point put off
     each(from, to, done, [&](std::size_t i) {
+        if (batch.is_done(i)) return i + 1;
         const std::uint64_t *const record = batch.record(i);
         const Point<D> p = record_point<D>(record);
         Inserted inserted = Inserted::put_off;
@@ -141,6 +142,7 @@ void Interval<D>::fix(const Batch &batch, std::size_t from, std::size_t to,
     if constexpr (D == 2) {
         Fixing fixing(mesh_);
         each(from, to, done, [&](std::size_t i) {
+            if (batch.is_done(i)) return i + 1;
             const Segment segment = record_segment(batch.record(i));
             if (!fixing.fix_within(segment.a, segment.b, segment.how)) results.put_off.push_back(i);
             return i + 1;

@@ -56,13 +56,14 @@ namespace abacus {
 class Batch {
 public:
     Batch(const Memory &memory, std::size_t stride)
-        : stride_(stride), records_(memory), codes_(memory), later_runs_(memory) {}
+        : stride_(stride), records_(memory), codes_(memory), later_runs_(memory), marks_(memory) {}
 
     void swap(Batch &other) noexcept {
         std::swap(stride_, other.stride_);
         records_.swap(other.records_);
         codes_.swap(other.codes_);
         later_runs_.swap(other.later_runs_);
+        marks_.swap(other.marks_);
     }
     /// Starts afresh with records of this many words.
     void begin(std::size_t stride) {
@@ -90,9 +91,6 @@ public:
         return run < later_runs_.size() ? later_runs_[run] : size();
     }
     std::size_t run_size(std::size_t run) const { return run_end(run) - run_begin(run); }
-    void set_run_begin(std::size_t run, std::size_t at) {
-        if (run > 0) later_runs_[run - 1] = at;
-    }
     /// The first of a run with this code or one behind it; the run's end if there is none.
     std::size_t first_from(std::uint64_t code, std::size_t run) const {
         return static_cast<std::size_t>(
@@ -116,33 +114,64 @@ public:
         std::copy_n(record(i), stride_, records_.data() + n * stride_);
         codes_[n] = codes_[i];
     }
-    /// Moves n from the i-th on.
-    void move(std::size_t i, std::size_t n, std::size_t to) {
-        if (i == to) return;
-        std::copy_n(record(i), n * stride_, records_.data() + to * stride_);
-        std::copy_n(codes() + i, n, codes_.data() + to);
-    }
     void shorten(std::size_t size) {
         records_.resize(size * stride_);
         codes_.resize(size);
+        marks_.clear();
         if (size == 0) later_runs_.clear();
     }
     /// Keeps only those with these numbers, which ascend.
     void keep(const Arena<std::size_t> &numbers) {
-        std::size_t kept = 0, run = 0;
-        for (const std::size_t i : numbers) {
-            for (; run < later_runs_.size() && later_runs_[run] <= i; ++run)
-                later_runs_[run] = kept;
-            move(i, kept++);
-        }
-        for (; run < later_runs_.size(); ++run) later_runs_[run] = kept;
-        shorten(kept);
+        Keeping keeping{*this};
+        for (const std::size_t i : numbers) keeping.keep(i);
+    }
+    void drop_done() {
+        if (marks_.empty()) return;
+        Keeping keeping{*this};
+        for (std::size_t i = 0; i < size(); ++i)
+            if (!is_done(i)) keeping.keep(i);
+    }
+
+    /// Marks of records that are done: a bit for each, in words of 32 records, which are not set
+    /// yet.
+    std::uint32_t *make_marks() {
+        marks_.resize((size() + marked_together - 1) / marked_together);
+        return marks_.data();
+    }
+    static constexpr std::size_t marked_together = 32;
+    bool is_done(std::size_t i) const {
+        return !marks_.empty() && (marks_[i / marked_together] >> i % marked_together & 1) != 0;
     }
 
 private:
+    /// Moves records that are kept, one after the other; the others are gone with it.
+    struct Keeping {
+        explicit Keeping(Batch &batch) : batch_(batch) {}
+        Keeping(const Keeping &) = delete;
+        Keeping &operator=(const Keeping &) = delete;
+        ~Keeping() {
+            begin_runs(batch_.size());
+            batch_.shorten(kept_);
+        }
+        void keep(std::size_t i) {
+            begin_runs(i);
+            batch_.move(i, kept_++);
+        }
+
+    private:
+        void begin_runs(std::size_t i) {
+            for (; run_ < batch_.later_runs_.size() && batch_.later_runs_[run_] <= i; ++run_)
+                batch_.later_runs_[run_] = kept_;
+        }
+
+        Batch &batch_;
+        std::size_t kept_ = 0, run_ = 0;
+    };
+
     std::size_t stride_;
     Arena<std::uint64_t> records_, codes_;
     Arena<std::size_t> later_runs_; // where they begin, except the first
+    Arena<std::uint32_t> marks_;    // none if no record is done
 };
 
 /// What is done with the records of a batch. A segment to be fixed is a record as in

@@ -25,8 +25,8 @@ namespace abacus {
 
 template <int D> class NearBorder {
 public:
-    /// The number of points examined together.
-    static constexpr std::size_t together = 32;
+    /// The number of points examined together, at most.
+    static constexpr std::size_t together = Batch::marked_together;
     using Marks = std::uint32_t; ///< a bit for each of them
 
     /// `box`: of the points of the mesh, or of most of them.
