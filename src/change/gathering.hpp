@@ -1,13 +1,15 @@
 // Points inserted or removed, and edges of segments fixed, by several threads.
 //
 // Points come in rounds, each along the curve. Those that are inserted are gathered until the next
-// round begins; those that are removed come in rounds from the last to the first, and are gathered
-// over all rounds: the mesh is not in memory yet, and is read once. Points are gathered at most
-// until they take a share of the memory that the build has. A few are dealt with here and now, as
-// with one thread: those of early rounds, or a small change. Many are dealt with together:
+// round begins, unless their round is large: then the next one is gathered with it. Those that are
+// removed come in rounds from the last to the first, and are gathered over all rounds: the mesh is
+// not in memory yet, and is read once. Points are gathered at most until they take a share of the
+// memory that the build has. A few are dealt with here and now, as with one thread: those of small
+// rounds, or a small change. Many are dealt with together:
 //
-//   1. The mesh is cut where the threads' intervals begin (cuts.hpp). The session's thread inserts
-//      points near the borders (near_border.hpp), and all pages are written.
+//   1. The mesh is cut where the threads' intervals begin (cuts.hpp). Threads find the points near
+//      the borders (near_border.hpp), the session's thread inserts them, and its pages are handed
+//      over to the threads.
 //   2. Each thread inserts or removes the points of its interval, in a cache of its own
 //      (interval.hpp), and writes its pages. The session's thread serves it. Meanwhile it gathers
 //      the next points to be inserted, if they come in several batches.

@@ -5,6 +5,7 @@
 // inserted from there.
 #pragma once
 
+#include "change/coded_sink.hpp"
 #include "change/inserting.hpp"
 #include "points/vertex_page.hpp"
 
@@ -12,11 +13,11 @@
 
 namespace abacus {
 
-template <int D> class Intake final : public RecordSink {
+template <int D> class Intake final : public CodedSink<D> {
 public:
     /// At most this many points come.
     Intake(Inserting<D> &inserting, std::uint64_t points)
-        : inserting_(inserting), work_(inserting.work()), stride_(work_.record_size()),
+        : CodedSink<D>(inserting.work()), inserting_(inserting), stride_(work_.record_size()),
           held_(work_.host) {
         inserting_.begin(points);
         if (work_.has_waiting() && !work_.has_simplices()) stage();
@@ -40,11 +41,6 @@ public:
         for (; n > 0 && !work_.has_simplices(); --n, records += stride) add(records);
         inserting_.add(records, n);
     }
-    bool takes_codes() const override { return true; }
-    void find_codes(const std::uint64_t *records, std::size_t n, std::size_t stride,
-                    std::uint64_t *codes) const override {
-        work_.find_codes(records, n, stride, codes);
-    }
     void add(const std::uint64_t *records, const std::uint64_t *codes, std::size_t n,
              std::size_t stride) override {
         for (; n > 0 && !work_.has_simplices(); --n, records += stride, ++codes) add(records);
@@ -60,9 +56,9 @@ public:
     void meanwhile() override { inserting_.meanwhile(); }
     std::size_t held_back() const override { return inserting_.held_back(); }
     abacus_phase phase() const override { return ABACUS_PHASE_INSERTING; }
-    PagesMoved pages_moved() const override { return work_.pages_moved(); }
 
 private:
+    using CodedSink<D>::work_;
     static constexpr std::size_t most_held = 4096;
 
     std::size_t held() const { return held_.size() / stride_; }
@@ -83,7 +79,6 @@ private:
     }
 
     Inserting<D> &inserting_;
-    Workspace<D> &work_;
     const std::size_t stride_;
     FirstSimplex<D> first_; // of the points held
     Arena<std::uint64_t> held_;

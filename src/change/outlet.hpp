@@ -8,16 +8,17 @@
 // and written for each of them.
 #pragma once
 
+#include "change/coded_sink.hpp"
 #include "change/deleting.hpp"
 #include "change/outlay.hpp"
 #include "points/waiting_points.hpp"
 
 namespace abacus {
 
-template <int D> class Deleting<D>::Outlet final : public RecordSink, private Gathering<D>::User {
+template <int D> class Deleting<D>::Outlet final : public CodedSink<D>, private Gathering<D>::User {
 public:
     Outlet(Deleting &deleting, const Stage<D> &stage, bool exactly)
-        : deleting_(deleting), work_(deleting.work_), gathering_(deleting.gathering_),
+        : CodedSink<D>(deleting.work_), deleting_(deleting), gathering_(deleting.gathering_),
           memory_(stage.memory()), exactly_(exactly),
           words_(record_words(D, exactly ? work_.attributes : 0)),
           outlay_(stage.points(), work_.facts->census.vertices, work_.simplices()),
@@ -33,11 +34,6 @@ public:
         if (is_shared()) return gathering_.gather(records, n, stride);
         gathering_.finish(); // if any points are left
         for (; n > 0; --n, records += stride) take_left(records);
-    }
-    bool takes_codes() const override { return true; }
-    void find_codes(const std::uint64_t *records, std::size_t n, std::size_t stride,
-                    std::uint64_t *codes) const override {
-        work_.find_codes(records, n, stride, codes);
     }
     void add(const std::uint64_t *records, const std::uint64_t *codes, std::size_t n,
              std::size_t stride) override {
@@ -55,9 +51,10 @@ public:
     std::uint64_t taken() const { return taken_; }
 
     abacus_phase phase() const override { return ABACUS_PHASE_DELETING; }
-    PagesMoved pages_moved() const override { return work_.pages_moved(); }
 
 private:
+    using CodedSink<D>::work_;
+
     /// The part of the memory that the wants of a place may take.
     static constexpr std::size_t want_share = 16;
 
@@ -113,7 +110,6 @@ private:
     }
 
     Deleting &deleting_;
-    Workspace<D> &work_;
     Gathering<D> &gathering_;
     const std::size_t memory_; // for sorting
     const bool exactly_;

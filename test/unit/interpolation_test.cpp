@@ -3,6 +3,7 @@
 #include "geometry/distance.hpp"
 #include "support/containment.hpp"
 #include "support/large_mesh.hpp"
+#include "support/lattice.hpp"
 #include "support/triangulations.hpp"
 
 #include <CGAL/Delaunay_triangulation_2.h>
@@ -40,23 +41,6 @@ template <int D> double linear(const Point<D> &p) {
     double sum = 1;
     for (int i = 0; i < D; ++i) sum += (i + 2) * p[i];
     return sum;
-}
-
-template <int D> std::vector<Point<D>> random_points(int n, unsigned seed) {
-    Random random(seed);
-    std::vector<Point<D>> points;
-    for (int i = 0; i < n; ++i) points.push_back(unit_point<D>(random));
-    return points;
-}
-
-template <int D> std::vector<Point<D>> grid(int n) {
-    std::vector<Point<D>> points;
-    for (int i = 0; i < (D == 2 ? n * n : n * n * n); ++i) {
-        Point<D> p;
-        for (int axis = 0, rest = i; axis < D; ++axis, rest /= n) p[axis] = rest % n;
-        points.push_back(p);
-    }
-    return points;
 }
 
 /// A mesh with the linear function, and one without every third value.

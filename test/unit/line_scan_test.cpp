@@ -3,6 +3,7 @@
 // outside.
 #include "query/lines/line_scan.hpp"
 #include "support/containment.hpp"
+#include "support/lattice.hpp"
 #include "support/point_sets.hpp"
 #include "support/sanitized.hpp"
 #include "support/triangulations.hpp"
@@ -260,16 +261,6 @@ template <int D> void expect_reversible() {
 TEST(LineScan, IsTheSameBackwards) {
     expect_reversible<2>();
     expect_reversible<3>();
-}
-
-template <int D> std::vector<Point<D>> grid(int n) {
-    std::vector<Point<D>> points;
-    for (int i = 0; i < (D == 2 ? n * n : n * n * n); ++i) {
-        Point<D> p{};
-        for (int k = 0, rest = i; k < D; ++k, rest /= n) p[k] = rest % n;
-        points.push_back(p);
-    }
-    return points;
 }
 
 TEST(LineScan, OfGrids) {

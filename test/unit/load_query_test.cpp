@@ -1,6 +1,7 @@
 // Locating and walking in loaded meshes that are not Delaunay, not convex, in pieces: compared with
 // brute force over all simplices.
 #include "support/containment.hpp"
+#include "support/lattice.hpp"
 #include "support/triangulations.hpp"
 
 #include <gtest/gtest.h>
@@ -9,16 +10,6 @@ namespace abacus::test {
 namespace {
 
 constexpr std::size_t little = 60 << 10, ample = 64 << 20;
-
-template <int D> std::vector<Point<D>> grid(int n) {
-    std::vector<Point<D>> points;
-    for (int i = 0; i < (D == 2 ? n * n : n * n * n); ++i) {
-        Point<D> p{};
-        for (int k = 0, rest = i; k < D; ++k, rest /= n) p[k] = rest % n;
-        points.push_back(p);
-    }
-    return points;
-}
 
 /// Vertices, middles of pairs, which lie on facets in grids, and arbitrary places.
 template <int D> std::vector<Point<D>> targets(const Triangulation<D> &t, int n) {

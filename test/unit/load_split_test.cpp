@@ -1,6 +1,7 @@
 // Split nodes: meshes cut along faults, whose two sides have vertices of their own at the same
 // places. The loaded mesh comes back unchanged; every question is answered as by brute force.
 #include "support/containment.hpp"
+#include "support/lattice.hpp"
 #include "support/triangulations.hpp"
 
 #include <gtest/gtest.h>
@@ -12,16 +13,6 @@ namespace abacus::test {
 namespace {
 
 constexpr std::size_t tiny = 1, little = 60 << 10, ample = 64 << 20;
-
-template <int D> std::vector<Point<D>> grid(int n) {
-    std::vector<Point<D>> points;
-    for (int i = 0; i < (D == 2 ? n * n : n * n * n); ++i) {
-        Point<D> p{};
-        for (int k = 0, rest = i; k < D; ++k, rest /= n) p[k] = rest % n;
-        points.push_back(p);
-    }
-    return points;
-}
 
 /// Splits the vertices of facets that are faults, according to their middles: one for each part of
 /// the star that is connected across other facets. The attribute of a vertex is its id.

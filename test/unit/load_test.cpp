@@ -1,5 +1,6 @@
 // Loading triangulations made elsewhere: the same mesh comes back, Delaunay or not; anything that
 // is not a triangulation is refused, and the faulty parts are named.
+#include "support/lattice.hpp"
 #include "support/triangulations.hpp"
 
 #include <gtest/gtest.h>
@@ -8,25 +9,6 @@ namespace abacus::test {
 namespace {
 
 constexpr std::size_t tiny = 1, little = 60 << 10, ample = 64 << 20;
-
-template <int D> std::vector<Point<D>> random_points(int n, unsigned seed) {
-    std::mt19937_64 random(seed);
-    std::uniform_real_distribution<double> unit(0, 1);
-    std::vector<Point<D>> points(n);
-    for (auto &p : points)
-        for (double &x : p) x = unit(random);
-    return points;
-}
-
-template <int D> std::vector<Point<D>> grid(int n) {
-    std::vector<Point<D>> points;
-    for (int i = 0; i < (D == 2 ? n * n : n * n * n); ++i) {
-        Point<D> p{};
-        for (int k = 0, rest = i; k < D; ++k, rest /= n) p[k] = rest % n;
-        points.push_back(p);
-    }
-    return points;
-}
 
 template <int D> std::vector<Ids<D>> sorted(std::vector<Ids<D>> simplices) {
     for (auto &s : simplices) std::sort(s.begin(), s.end());

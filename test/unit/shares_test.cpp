@@ -1,4 +1,5 @@
 // Meshes cut into parts, and shares of them, compared with brute force over all simplices.
+#include "support/lattice.hpp"
 #include "support/point_sets.hpp"
 #include "support/sanitized.hpp"
 #include "support/triangulations.hpp"
@@ -279,24 +280,6 @@ public:
 template <class T> class SharesOf : public Shares<T::value> {};
 using Dimensions = testing::Types<std::integral_constant<int, 2>, std::integral_constant<int, 3>>;
 TYPED_TEST_SUITE(SharesOf, Dimensions);
-
-template <int D> std::vector<Point<D>> random_points(int n, unsigned seed) {
-    Random random(seed);
-    std::vector<Point<D>> points(static_cast<std::size_t>(n));
-    for (auto &p : points)
-        for (double &x : p) x = unit(random);
-    return points;
-}
-
-template <int D> std::vector<Point<D>> grid(int n) {
-    std::vector<Point<D>> points;
-    for (int i = 0; i < (D == 2 ? n * n : n * n * n); ++i) {
-        Point<D> p{};
-        for (int k = 0, rest = i; k < D; ++k, rest /= n) p[k] = rest % n;
-        points.push_back(p);
-    }
-    return points;
-}
 
 constexpr int some(int dimension) { return sanitized ? 20 : dimension == 2 ? 70 : 35; }
 

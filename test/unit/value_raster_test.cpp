@@ -1,6 +1,7 @@
 // Rasters: every value is that of Interpolation at the pixel's centre, to the last bit; except with
 // natural neighbours, whose sums have no defined order.
 #include "query/places/value_raster.hpp"
+#include "support/lattice.hpp"
 #include "support/point_sets.hpp"
 #include "support/triangulations.hpp"
 
@@ -85,16 +86,6 @@ template <int D> void expect_rasters(MeshOf<D> &mesh, double extent, bool is_del
                         if (testing::Test::HasFatalFailure()) return;
                     }
     }
-}
-
-template <int D> std::vector<Point<D>> grid(int n) {
-    std::vector<Point<D>> points;
-    for (int i = 0; i < (D == 2 ? n * n : n * n * n); ++i) {
-        Point<D> p{};
-        for (int k = 0, rest = i; k < D; ++k, rest /= n) p[k] = rest % n;
-        points.push_back(p);
-    }
-    return points;
 }
 
 template <int D> void expect_rasters_of_delaunay() {

@@ -6,19 +6,13 @@
 
 #include "abacus/mesh_header.h"
 
+#include "pg/base/type_name.h"
 #include "pg/host/host.h"
 #include "pg/mesh/mesh.h"
 #include "pg/store/page_table.h"
 
 /* For pages of any type, when they are moved or inspected. */
 #define ANY_TYPE UINT32_MAX
-
-/* The word for an object of this type, for messages. */
-static inline const char *
-type_name(uint32 type)
-{
-	return type == ABACUS_OCTREE ? "octree" : "mesh";
-}
 
 typedef struct MeshPages
 {

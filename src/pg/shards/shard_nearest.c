@@ -14,6 +14,7 @@
 #include "utils/builtins.h"
 
 #include "abacus/locate.h"
+#include "pg/input/place.h"
 #include "pg/input/source.h"
 #include "pg/mesh/mesh.h"
 #include "pg/shards/shard_read.h"
@@ -207,12 +208,7 @@ static void
 begin_read(NearestRead *read, FunctionCallInfo fcinfo, int k, ShardLinks *links)
 {
 	read->set = (ReturnSetInfo *) fcinfo->resultinfo;
-	read->k = PG_GETARG_INT32(k);
-	if (read->k < 1)
-		ereport(ERROR,
-				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
-				 errmsg("k must be at least 1, not %d", read->k),
-				 errhint("Set k to the number of vertices to return.")));
+	read->k = (int32) place_count_argument(fcinfo, k, "vertices");
 	generation_require_published(PG_GETARG_OID(0), &read->generation);
 	links_prepare(links, read->generation.servers, read->generation.shards);
 	read->most = Max(1, Min(MOST_PLACES, MOST_VERTICES / read->k));
@@ -236,7 +232,8 @@ shard_read_nearest(FunctionCallInfo fcinfo, int coordinates)
 	InitMaterializedSRF(fcinfo, 0);
 	SPI_connect();
 	begin_read(&read, fcinfo, 1 + coordinates, &links);
-	shard_read_finite_place(fcinfo, coordinates, &read.generation.form, read.points);
+	place_require_z(coordinates, &read.generation.form);
+	place_arguments_finite(fcinfo, coordinates, &read.generation.form, read.points);
 	read.count = 1;
 	links_run(&links, answer_one, &read);
 	SPI_finish();

@@ -10,13 +10,12 @@
  */
 #include "postgres.h"
 
-#include <math.h>
-
 #include "executor/spi.h"
 #include "funcapi.h"
 #include "utils/builtins.h"
 #include "utils/lsyscache.h"
 
+#include "pg/input/place.h"
 #include "pg/input/source.h"
 #include "pg/mesh/mesh.h"
 #include "pg/shards/shard_call.h"
@@ -227,45 +226,10 @@ open_places(PlacesAsked *asked, FunctionCallInfo fcinfo, ShardLinks *links)
 
 /* ---- One place ------------------------------------------------------------------------------ */
 
-/* The place in the arguments; false if a coordinate is infinite. */
-static bool
-place_argument(FunctionCallInfo fcinfo, int coordinates, const abacus_form *form, double *point)
-{
-	bool		finite = true;
-
-	if (coordinates != (int) form->dimension)
-		ereport(ERROR,
-				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
-				 errmsg("z is %s, but the mesh has dimension %u", form->dimension == 2 ? "given" : "missing",
-						form->dimension),
-				 errhint("Give as many coordinates as the mesh has.")));
-	for (int i = 0; i < coordinates; i++)
-	{
-		point[i] = PG_GETARG_FLOAT8(1 + i);
-		if (isnan(point[i]))
-			ereport(ERROR,
-					(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
-					 errmsg("%c is not a number", "xyz"[i])));
-		finite &= isfinite(point[i]) != 0;
-	}
-	return finite;
-}
-
-/* The same, where an infinite one is also an error. */
-void
-shard_read_finite_place(FunctionCallInfo fcinfo, int coordinates, const abacus_form *form, double *point)
-{
-	if (!place_argument(fcinfo, coordinates, form, point))
-		ereport(ERROR,
-				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
-				 errmsg("a coordinate of the place is infinite"),
-				 errhint("Give finite coordinates.")));
-}
-
 static bool
 place_of_arguments(PlacesAsked *asked, FunctionCallInfo fcinfo, int coordinates)
 {
-	bool		finite = place_argument(fcinfo, coordinates, &asked->generation.form, asked->points);
+	bool		finite = place_arguments(fcinfo, coordinates, &asked->generation.form, asked->points);
 
 	asked->coordinates = coordinates;
 	asked->ids[0] = 0;

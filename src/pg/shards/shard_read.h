@@ -21,8 +21,6 @@ extern Datum shard_read_rows(FunctionCallInfo fcinfo, ShardRows rows);
 extern Datum shard_read_place(FunctionCallInfo fcinfo, int coordinates);
 extern Datum shard_read_place_rows(FunctionCallInfo fcinfo, int coordinates);
 extern Datum shard_read_places(FunctionCallInfo fcinfo, bool has_row_outside);
-extern void shard_read_finite_place(FunctionCallInfo fcinfo, int coordinates, const abacus_form *form,
-									double *point);
 extern Datum shard_read_nearest(FunctionCallInfo fcinfo, int coordinates);
 extern Datum shard_read_nearest_places(FunctionCallInfo fcinfo);
 

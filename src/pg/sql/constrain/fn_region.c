@@ -8,12 +8,12 @@
 #include "utils/builtins.h"
 
 #include "pg/base/sql_function.h"
+#include "pg/input/place.h"
 #include "pg/lines/new_lines.h"
 #include "pg/lines/new_regions.h"
 #include "pg/mesh/regions_table.h"
 #include "pg/port/port.h"
 #include "pg/sql/arguments/extent_arguments.h"
-#include "pg/sql/arguments/place.h"
 #include "pg/sql/constrain/regions_fault.h"
 
 SQL_FUNCTION(abacus_sql_region);

@@ -13,9 +13,9 @@
 
 #include "pg/base/sql_function.h"
 #include "pg/host/guard.h"
+#include "pg/input/place.h"
 #include "pg/mesh/mesh_cache.h"
 #include "pg/sql/arguments/interpolation.h"
-#include "pg/sql/arguments/place.h"
 #include "pg/sql/arguments/places.h"
 #include "pg/sql/octree/octant_row.h"
 #include "pg/sql/rows/answers.h"

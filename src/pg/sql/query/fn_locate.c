@@ -7,9 +7,9 @@
 #include "postgres.h"
 
 #include "pg/base/sql_function.h"
+#include "pg/input/place.h"
 #include "pg/mesh/mesh_cache.h"
 #include "pg/shards/shard_read.h"
-#include "pg/sql/arguments/place.h"
 #include "pg/sql/rows/simplex_row.h"
 
 SQL_FUNCTION(abacus_sql_locate);

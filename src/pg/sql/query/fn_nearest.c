@@ -12,9 +12,9 @@
 #include "abacus/locate.h"
 #include "pg/base/sql_function.h"
 #include "pg/host/guard.h"
+#include "pg/input/place.h"
 #include "pg/mesh/mesh_cache.h"
 #include "pg/shards/shard_read.h"
-#include "pg/sql/arguments/place.h"
 #include "pg/sql/arguments/places.h"
 #include "pg/sql/rows/answers.h"
 

@@ -8,11 +8,11 @@
 
 #include "pg/base/sql_function.h"
 #include "pg/host/guard.h"
+#include "pg/input/place.h"
 #include "pg/mesh/mesh_cache.h"
 #include "pg/shards/shard_read.h"
 #include "pg/sql/arguments/extent_arguments.h"
 #include "pg/sql/arguments/interpolation.h"
-#include "pg/sql/arguments/place.h"
 #include "pg/sql/arguments/places.h"
 #include "pg/sql/rows/answers.h"
 

@@ -5,8 +5,8 @@
 
 #include <math.h>
 
-#include "pg/mesh/header.h"
-#include "pg/sql/arguments/place.h"
+#include "pg/base/type_name.h"
+#include "pg/input/place.h"
 
 /*
  * Reads the `given` coordinates after the first argument. False if one is infinite; NaN is an
