@@ -99,12 +99,20 @@ Canvas::Canvas(const Host &host, const abacus_drawing &drawing, double low, doub
       width_(drawing_.width + 2 * margin), height_(drawing_.height + 2 * margin),
       frame_(drawing_, margin), range_(low, high), raster_(host, width_, height_),
       overlay_(host, drawing_, width_, height_), pixels_(host),
-      labels_(host, width_, height_, margin), path_(host), contours_(host), heights_(host) {
+      labels_(host, width_, height_, margin, drawing_.contour_interval), path_(host),
+      contours_(host), heights_(host) {
     const bool has_contours = drawing_.contour_interval > 0 && has_values();
     if (has_contours && !((high / 2 - low / 2) / drawing_.contour_interval < most_contours / 2))
         throw Error(ABACUS_ERROR_ARGUMENT, "contours are too close to one another",
                     "More than " + std::to_string(most_contours) + " lie within the range.",
                     "Give a greater interval, or a narrower range.");
+    if (has_contours && drawing_.contour_labels != 0) {
+        if (has_legend())
+            labels_.keep_free(
+                legend_box(drawing_.width, drawing_.height, low_, high_, drawing_.legend));
+        if (drawing_.scale_bar != nullptr)
+            labels_.keep_free(scale_bar_box(drawing_.width, drawing_.height, drawing_.scale_bar));
+    }
     // Row by row, since memory for all of a large picture takes most of a second.
     const std::size_t all = static_cast<std::size_t>(width_) * height_;
     pixels_.reserve(all);
@@ -299,8 +307,7 @@ Png Canvas::png(const Palette &palette, double unit) {
     });
     Picture picture = drawing_.attribute >= 0 ? values(palette) : mesh();
     labels_.paint(picture);
-    if (drawing_.attribute >= 0 && drawing_.legend != nullptr && has_values())
-        add_legend(picture, palette, low_, high_, drawing_.legend);
+    if (has_legend()) add_legend(picture, palette, low_, high_, drawing_.legend);
     if (drawing_.scale_bar != nullptr)
         add_scale_bar(picture, frame_.pixels_per_unit(0) * unit, drawing_.scale_bar);
     return picture.png();

@@ -99,6 +99,9 @@ private:
     bool place(Patch &patch, Box<2> &box) const;
 
     bool has_values() const { return low_ <= high_; }
+    bool has_legend() const {
+        return drawing_.attribute >= 0 && drawing_.legend != nullptr && has_values();
+    }
     bool is_shaded() const { return is_shaded(drawing_) && low_ < high_; }
     static bool is_shaded(const abacus_drawing &drawing) {
         return drawing.attribute >= 0 && drawing.exaggeration != 0;

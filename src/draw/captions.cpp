@@ -17,6 +17,43 @@ double scale_of(const Picture &picture) { return caption_scale(picture.width(), 
 
 double letter_height(double scale) { return 9 * scale; }
 
+// Of a caption, by the scale: what is around it, and inside.
+double caption_margin(double scale) { return 10 * scale; }
+double padding(double scale) { return 8 * scale; }
+
+// Of a legend.
+double bar_width(double scale) { return 14 * scale; }
+double text_gap(double scale) { return 8 * scale; }
+double bar_height(std::int32_t picture_height, double scale) {
+    return std::min(150 * scale, picture_height * 0.6);
+}
+double head_height(std::string_view heading, double scale) {
+    return heading.empty() ? 0 : letter_height(scale) * 1.3 + padding(scale);
+}
+
+/// Of the picture's width, for a scale bar.
+constexpr double most_bar = 0.3;
+
+/// The numbers beside the colours of a legend.
+struct LegendValues {
+    LegendValues(double low, double high)
+        : extent(high / 2 - low / 2),
+          step(extent > 0 ? round_step(extent / 2.5) : std::max(std::fabs(low), 1e-300)) {
+        if (extent > 0)
+            for (double n = std::ceil(low / step), end = n + 12; n < end && n * step <= high; ++n)
+                all.push_back(n * step);
+        else
+            all.push_back(low);
+    }
+
+    double extent, step; ///< half of the range
+    std::vector<double> all;
+};
+
+Box<2> box_at(double x, double y, double width, double height) {
+    return {{x, y}, {x + width, y + height}};
+}
+
 void choose(cairo_t *pen, std::uint32_t rgb, double alpha = 1) {
     cairo_set_source_rgba(pen, (rgb >> 16 & 255) / 255.0, (rgb >> 8 & 255) / 255.0,
                           (rgb & 255) / 255.0, alpha);
@@ -25,9 +62,10 @@ void choose(cairo_t *pen, std::uint32_t rgb, double alpha = 1) {
 void choose_ink(cairo_t *pen) { choose(pen, 0x1c2a2c); }
 
 /// A light background for the caption.
-void panel(cairo_t *pen, double x, double y, double width, double height) {
+void panel(cairo_t *pen, const Box<2> &box) {
     choose(pen, 0xffffff, 0.82);
-    cairo_rectangle(pen, std::floor(x), std::floor(y), std::ceil(width), std::ceil(height));
+    cairo_rectangle(pen, std::floor(box.lower[0]), std::floor(box.lower[1]),
+                    std::ceil(box.upper[0] - box.lower[0]), std::ceil(box.upper[1] - box.lower[1]));
     cairo_fill(pen);
 }
 
@@ -58,73 +96,83 @@ std::string number_text(double value, double step) {
     return {text, result.ptr};
 }
 
+Box<2> legend_box(std::int32_t picture_width, std::int32_t picture_height, double low, double high,
+                  const char *title) {
+    const double s = caption_scale(picture_width, picture_height), letters = letter_height(s);
+    const LegendValues values(low, high);
+    double text = 0;
+    for (const double value : values.all)
+        text = std::max(text, text_width(number_text(value, values.step), letters));
+    const std::string_view heading(title);
+    const double width =
+        2 * padding(s) + std::max(bar_width(s) + text_gap(s) + text, text_width(heading, letters));
+    const double height = 2 * padding(s) + head_height(heading, s) + bar_height(picture_height, s);
+    return box_at(picture_width - caption_margin(s) - width,
+                  picture_height - caption_margin(s) - height, width, height);
+}
+
 void add_legend(Picture &picture, const Palette &palette, double low, double high,
                 const char *title) {
-    const double s = scale_of(picture), letters = letter_height(s), margin = 10 * s, pad = 8 * s;
-    const double bar_height = std::min(150 * s, picture.height() * 0.6), bar_width = 14 * s;
-    const double extent = high / 2 - low / 2;
-    const double step = extent > 0 ? round_step(extent / 2.5) : std::max(std::fabs(low), 1e-300);
-    std::vector<double> values;
-    if (extent > 0)
-        for (double n = std::ceil(low / step), end = n + 12; n < end && n * step <= high; ++n)
-            values.push_back(n * step);
-    else
-        values.push_back(low);
-    double text = 0;
-    for (const double value : values)
-        text = std::max(text, text_width(number_text(value, step), letters));
+    const double s = scale_of(picture), letters = letter_height(s);
+    const LegendValues values(low, high);
     const std::string_view heading(title);
-    const double head = heading.empty() ? 0 : letters * 1.3 + pad;
-    const double width = 2 * pad + std::max(bar_width + 8 * s + text, text_width(heading, letters));
-    const double height = 2 * pad + head + bar_height;
-    const double left = picture.width() - margin - width, top = picture.height() - margin - height;
+    const Box<2> box = legend_box(picture.width(), picture.height(), low, high, title);
     const Encoder encode;
     picture.paint([&](cairo_t *pen) {
-        panel(pen, left, top, width, height);
+        panel(pen, box);
         choose_ink(pen);
-        draw_text(pen, left + pad, top + pad + letters, heading, letters);
-        const double x = std::floor(left + pad), y = std::floor(top + pad + head);
-        const int rows = std::max(1, static_cast<int>(bar_height));
+        draw_text(pen, box.lower[0] + padding(s), box.lower[1] + padding(s) + letters, heading,
+                  letters);
+        const double x = std::floor(box.lower[0] + padding(s)),
+                     y = std::floor(box.lower[1] + padding(s) + head_height(heading, s));
+        const int rows = std::max(1, static_cast<int>(bar_height(picture.height(), s)));
         for (int row = 0; row < rows; ++row) {
             const double share = rows > 1 ? 1 - row / (rows - 1.0) : 0.5;
-            choose(pen, encode(palette(static_cast<float>(extent > 0 ? share : 0.5))));
-            cairo_rectangle(pen, x, y + row, std::ceil(bar_width), 1);
+            choose(pen, encode(palette(static_cast<float>(values.extent > 0 ? share : 0.5))));
+            cairo_rectangle(pen, x, y + row, std::ceil(bar_width(s)), 1);
             cairo_fill(pen);
         }
         choose_ink(pen);
-        for (const double value : values) {
-            const double share = extent > 0 ? (value / 2 - low / 2) / extent : 0.5;
+        for (const double value : values.all) {
+            const double share = values.extent > 0 ? (value / 2 - low / 2) / values.extent : 0.5;
             const double at = y + (1 - share) * (rows - 1) + 0.5;
-            cairo_rectangle(pen, x + std::ceil(bar_width), at - 0.5 * s, 4 * s, s);
+            cairo_rectangle(pen, x + std::ceil(bar_width(s)), at - 0.5 * s, 4 * s, s);
             cairo_fill(pen);
-            draw_text(pen, x + bar_width + 8 * s, at + letters / 2, number_text(value, step),
-                      letters);
+            draw_text(pen, x + bar_width(s) + text_gap(s), at + letters / 2,
+                      number_text(value, values.step), letters);
         }
     });
 }
 
+Box<2> scale_bar_box(std::int32_t picture_width, std::int32_t picture_height, const char *unit) {
+    const double s = caption_scale(picture_width, picture_height), letters = letter_height(s);
+    const double text = text_width("0.0000005 " + std::string(unit), letters); // the longest number
+    const double height = 2 * padding(s) + letters * 1.6 + 5 * s;
+    return box_at(caption_margin(s), picture_height - caption_margin(s) - height,
+                  2 * padding(s) + std::max(most_bar * picture_width, text), height);
+}
+
 void add_scale_bar(Picture &picture, double pixels_per_unit, const char *unit) {
-    const double s = scale_of(picture), letters = letter_height(s), margin = 10 * s, pad = 8 * s;
-    const double most = picture.width() * 0.3 / pixels_per_unit;
+    const double s = scale_of(picture), letters = letter_height(s);
+    const double most = picture.width() * most_bar / pixels_per_unit;
     if (!(most > 0 && std::isfinite(most))) return; // coordinates at the limits of doubles
     const double length = round_step(most * 0.4);   // at most 2.5 times that
     std::string text = number_text(length, length);
     if (*unit != '\0') text += ' ' + std::string(unit);
     const double bar = length * pixels_per_unit;
-    const double width = 2 * pad + std::max(bar, text_width(text, letters));
-    const double height = 2 * pad + letters * 1.6 + 5 * s;
-    const double left = margin, top = picture.height() - margin - height;
+    Box<2> box = scale_bar_box(picture.width(), picture.height(), unit);
+    box.upper[0] = box.lower[0] + 2 * padding(s) + std::max(bar, text_width(text, letters));
+    const double left = box.lower[0] + padding(s), y = box.upper[1] - padding(s);
     picture.paint([&](cairo_t *pen) {
-        panel(pen, left, top, width, height);
+        panel(pen, box);
         choose_ink(pen);
-        draw_text(pen, left + pad, top + pad + letters, text, letters);
-        const double y = top + height - pad;
+        draw_text(pen, left, box.lower[1] + padding(s) + letters, text, letters);
         cairo_set_line_width(pen, 1.5 * s);
         cairo_set_line_cap(pen, CAIRO_LINE_CAP_BUTT);
-        cairo_move_to(pen, left + pad, y - 5 * s);
-        cairo_line_to(pen, left + pad, y);
-        cairo_line_to(pen, left + pad + bar, y);
-        cairo_line_to(pen, left + pad + bar, y - 5 * s);
+        cairo_move_to(pen, left, y - 5 * s);
+        cairo_line_to(pen, left, y);
+        cairo_line_to(pen, left + bar, y);
+        cairo_line_to(pen, left + bar, y - 5 * s);
         cairo_stroke(pen);
     });
 }

@@ -3,6 +3,7 @@
 
 #include "draw/palette.hpp"
 #include "draw/picture.hpp"
+#include "geometry/box.hpp"
 
 #include <string>
 
@@ -15,6 +16,11 @@ double round_step(double x);
 /// A multiple of such a step, with no more digits than it needs.
 std::string number_text(double value, double step);
 
+/// What a legend takes of a picture of this size, in pixels.
+Box<2> legend_box(std::int32_t width, std::int32_t height, double low, double high,
+                  const char *title);
+/// What a scale bar takes at most, whatever its length.
+Box<2> scale_bar_box(std::int32_t width, std::int32_t height, const char *unit);
 /// Adds the colours from the one of `low` to the one of `high`, with values beside them and a title
 /// above them, at the lower right.
 void add_legend(Picture &picture, const Palette &palette, double low, double high,

@@ -21,26 +21,53 @@ constexpr double pad = 0.6, stretch = 40, most_bend = 0.3, try_step = 0.5;
 // A line much longer than the value, as it turns back, is no straight one.
 constexpr double least_chord = 0.9;
 
-std::string text_of(double value) {
-    std::array<char, 32> text;
-    const auto end =
-        std::to_chars(text.begin(), text.end(), value + 0.0, std::chars_format::general, 12).ptr;
-    return {text.data(), end};
-}
-
 double distance_of(const Point<2> &a, const Point<2> &b) {
     return std::hypot(b[0] - a[0], b[1] - a[1]);
 }
 
 } // namespace
 
+std::string contour_text(double value, double interval) {
+    std::array<char, 64> text;
+    double rounded = value;
+    for (const int digits : {12, 13, 14, 15, 16, 17}) {
+        const auto end =
+            std::to_chars(text.begin(), text.end(), value + 0.0, std::chars_format::general, digits)
+                .ptr;
+        std::from_chars(text.data(), end, rounded);
+        if (std::fabs(rounded - value) <= interval / 1000) break;
+    }
+    const bool is_long = rounded != 0 && !(std::fabs(rounded) >= 1e-5 && std::fabs(rounded) < 1e17);
+    const auto end = std::to_chars(text.begin(), text.end(), rounded,
+                                   is_long ? std::chars_format::general : std::chars_format::fixed)
+                         .ptr;
+    return {text.data(), end};
+}
+
 ContourLabels::ContourLabels(const Host &host, std::int32_t width, std::int32_t height,
-                             std::int32_t margin)
-    : host_(host), width_(width), height_(height), margin_(margin),
+                             std::int32_t margin, double interval)
+    : host_(host), width_(width), height_(height), margin_(margin), interval_(interval),
       letters_(8 * caption_scale(width - 2 * margin, height - 2 * margin)),
       half_height_(letters_ * 0.5 + letters_ * 0.4), cell_(letters_ * 0.5),
       columns_(static_cast<std::int32_t>(width / cell_) + 1), labels_(host), steps_(host),
       taken_(host) {}
+
+void ContourLabels::make_cells() {
+    if (!taken_.empty()) return;
+    taken_.resize((static_cast<std::size_t>(height_ / cell_) + 1) * columns_);
+    std::fill(taken_.begin(), taken_.end(), 0);
+}
+
+void ContourLabels::keep_free(const Box<2> &box) {
+    make_cells();
+    const auto cell = [&](double at, std::int32_t size) {
+        return static_cast<std::int32_t>(std::clamp<double>(at + margin_, 0, size) / cell_);
+    };
+    for (std::int32_t row = cell(box.lower[1], height_); row <= cell(box.upper[1], height_); ++row)
+        for (std::int32_t column = cell(box.lower[0], width_); column <= cell(box.upper[0], width_);
+             ++column)
+            taken_[static_cast<std::size_t>(row) * columns_ + column] = 1;
+}
 
 /// Keeps places a pixel apart, and the ends.
 void ContourLabels::measure(std::span<const Point<2>> path) {
@@ -131,12 +158,9 @@ void ContourLabels::take(const Label &label) {
 void ContourLabels::add(double value, std::span<const Point<2>> path) {
     measure(path);
     const double total = steps_.empty() ? 0 : steps_.back().along;
-    const double half = text_width(text_of(value), letters_) / 2 + pad * letters_;
+    const double half = text_width(contour_text(value, interval_), letters_) / 2 + pad * letters_;
     if (!(total >= 3 * half)) return; // too short to be seen beside its value
-    if (taken_.empty()) {
-        taken_.resize((static_cast<std::size_t>(height_ / cell_) + 1) * columns_);
-        std::fill(taken_.begin(), taken_.end(), 0);
-    }
+    make_cells();
     const double count = std::fmax(1, std::floor(total / (stretch * letters_)));
     for (double n = 0; n < count; ++n) {
         const double begin = total / count * n, end = total / count * (n + 1);
@@ -161,7 +185,7 @@ void ContourLabels::paint(Picture &picture) const {
     picture.paint([&](cairo_t *pen) {
         for (const Label &label : labels_) {
             host_.poll();
-            const std::string text = text_of(label.value);
+            const std::string text = contour_text(label.value, interval_);
             cairo_identity_matrix(pen);
             cairo_translate(pen, label.middle[0] - margin_, label.middle[1] - margin_);
             cairo_rotate(pen, std::atan2(label.direction[1], label.direction[0]));

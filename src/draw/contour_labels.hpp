@@ -7,17 +7,27 @@
 
 #include "draw/picture.hpp"
 #include "draw/raster.hpp"
-#include "geometry/point.hpp"
+#include "geometry/box.hpp"
 #include "host/arena.hpp"
 
 #include <span>
+#include <string>
 
 namespace abacus {
 
+/// A contour's value, a multiple of the interval, with as many digits as it needs; in full, unless
+/// that would be very long.
+std::string contour_text(double value, double interval);
+
 class ContourLabels {
 public:
-    /// For a picture of this size with its margin, in pixels.
-    ContourLabels(const Host &host, std::int32_t width, std::int32_t height, std::int32_t margin);
+    /// For a picture of this size with its margin, in pixels. Values are multiples of the
+    /// interval.
+    ContourLabels(const Host &host, std::int32_t width, std::int32_t height, std::int32_t margin,
+                  double interval);
+
+    /// No value is written there; the box is that of a picture without its margin.
+    void keep_free(const Box<2> &box);
 
     /// Looks for places on the line of a value; `path` is in pixels, with the margin, and does not
     /// leave the picture by far: it is tried pixel by pixel.
@@ -64,15 +74,16 @@ private:
     double bend(double from, double to, Label &label) const;
     bool is_free(const Label &label) const;
     void take(const Label &label);
+    void make_cells();
     template <class Visit> bool each_cell(const Label &label, Visit visit) const;
 
     const Host &host_;
     const std::int32_t width_, height_, margin_;
-    const double letters_, half_height_, cell_;
+    const double interval_, letters_, half_height_, cell_;
     const std::int32_t columns_;
     Arena<Label> labels_;
     Arena<Step> steps_;         // of the line
-    Arena<std::uint8_t> taken_; // cells of the picture that have a value
+    Arena<std::uint8_t> taken_; // cells of the picture that have a value, or are kept free
 };
 
 } // namespace abacus

@@ -1,11 +1,13 @@
 // Values on contours: where they are, that they do not overlap, and what is left of the lines.
 #include "draw/canvas.hpp"
+#include "draw/captions.hpp"
 #include "draw/contour_labels.hpp"
 #include "support/image.hpp"
 #include "support/memory_host.hpp"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <numbers>
 #include <set>
@@ -37,12 +39,14 @@ Path circle(const Point<2> &middle, double radius, double turns = 1) {
     return path;
 }
 
-/// The pixels that the values of lines take, and how much of each.
-Pixels taken(const std::vector<std::pair<double, Path>> &lines, std::int32_t margin = 0) {
+/// The pixels that the values of lines take, and how much of each; `free` boxes are kept free.
+Pixels taken(const std::vector<std::pair<double, Path>> &lines, std::int32_t margin = 0,
+             const std::vector<Box<2>> &free = {}) {
     MemoryHost memory;
     const Host host = memory.host();
     Raster raster(host, width, height);
-    ContourLabels labels(host, width, height, margin);
+    ContourLabels labels(host, width, height, margin, 10);
+    for (const Box<2> &box : free) labels.keep_free(box);
     for (const auto &[value, path] : lines) labels.add(value, path);
     Pixels pixels;
     labels.each_pixel(raster, [&](std::int32_t x, std::int32_t y, double covered) {
@@ -108,6 +112,36 @@ TEST(ContourLabels, AreWithinThePictureWithoutItsMargin) {
     EXPECT_TRUE(taken({{5, {}}, {5, {{1, 1}}}, {5, {{1, 1}, {1, 1}}}}).empty());
 }
 
+TEST(ContourLabels, LeaveBoxesFree) {
+    const Box<2> free{{300, 100}, {700, 300}}; // in the picture without its margin, and beyond it
+    std::vector<std::pair<double, Path>> lines;
+    for (int i = 0; i < 48; ++i) lines.emplace_back(i, line({-50, 10.0 * i}, {700, 10.0 * i}));
+    for (const std::int32_t margin : {0, 32}) {
+        const auto inside = [&](const Pixels &pixels) {
+            return std::count_if(pixels.begin(), pixels.end(), [&](const auto &pixel) {
+                const auto [x, y] = pixel.first;
+                return x - margin >= 300 && y - margin >= 100 && y - margin < 300;
+            });
+        };
+        EXPECT_GT(inside(taken(lines, margin)), 1000);
+        EXPECT_EQ(inside(taken(lines, margin, {free})), 0);
+        EXPECT_FALSE(taken(lines, margin, {free}).empty());
+    }
+}
+
+TEST(ContourLabels, HaveTheDigitsThatTheyNeed) {
+    EXPECT_EQ(contour_text(150, 50), "150");
+    EXPECT_EQ(contour_text(-0.0, 50), "0");
+    EXPECT_EQ(contour_text(0.1 + 0.2, 0.1), "0.3");
+    EXPECT_EQ(contour_text(-2.5, 0.5), "-2.5");
+    EXPECT_EQ(contour_text(1e6, 1e6), "1000000");
+    EXPECT_EQ(contour_text(2400000000000.5, 0.5), "2400000000000.5");
+    EXPECT_EQ(contour_text(2400000000000.1, 0.1), "2400000000000.1");
+    EXPECT_EQ(contour_text(123456789012345, 5), "123456789012345");
+    EXPECT_EQ(contour_text(1e300, 1e300), "1e+300");
+    EXPECT_EQ(contour_text(3e-9, 1e-9), "3e-09");
+}
+
 abacus_drawing drawing(bool with_labels) {
     abacus_drawing d{};
     d.width = width;
@@ -147,6 +181,34 @@ TEST(ContourLabels, EachFifthLevelHasThem) {
     EXPECT_EQ(levels(1, 4, 1, true), std::vector<double>());
     EXPECT_EQ(levels(0, 200, 10, false), std::vector<double>());
     EXPECT_EQ(levels(NAN, NAN, 10, true), std::vector<double>());
+}
+
+TEST(ContourLabels, AreNotUnderCaptions) {
+    abacus_drawing with = drawing(true);
+    with.legend = "height";
+    with.scale_bar = "m";
+    const Box<2> legend = legend_box(width, height, 0, 200, "height"),
+                 bar = scale_bar_box(width, height, "m");
+    const auto picture = [&](bool label) {
+        MemoryHost memory;
+        const Host host = memory.host();
+        Canvas canvas(host, with, 0, 200);
+        canvas.add({{{0, 0}, {width, 0}, {width, height}}, {0, 0, 200}});
+        canvas.add({{{0, 0}, {width, height}, {0, height}}, {0, 200, 200}});
+        if (label)
+            for (double y = 2; y < height; y += 10) canvas.label(50, line({0, y}, {width, y}));
+        return decode(canvas.png(Palette::grey()));
+    };
+    const Image plain = picture(false), labelled = picture(true);
+    int under = 0, beside = 0;
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            const bool is_under =
+                legend.contains({x + 0.5, y + 0.5}) || bar.contains({x + 0.5, y + 0.5});
+            (is_under ? under : beside) += plain(x, y) != labelled(x, y);
+        }
+    EXPECT_EQ(under, 0);
+    EXPECT_GT(beside, 1000);
 }
 
 TEST(ContourLabels, LinesEndWhereTheyBegin) {
