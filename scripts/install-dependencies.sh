@@ -15,7 +15,7 @@ version=${ABACUS_POSTGRESQL:-15}
 packages=(
     make g++ pkg-config libxxhash-dev libprotozero-dev
     "postgresql-$version" "postgresql-server-dev-$version"
-    libcgal-dev libgmp-dev libmpfr-dev libcairo2-dev libgeos-dev
+    libpq-dev libcgal-dev libgmp-dev libmpfr-dev libcairo2-dev libgeos-dev
 )
 demo=(
     gmt-gshhg-full gmt-gshhg-high   # shorelines, borders and rivers of the world

@@ -51,7 +51,7 @@ RETURNS regclass
 AS 'MODULE_PATHNAME', 'abacus_sql_shard_create'
 LANGUAGE C VOLATILE PARALLEL UNSAFE;
 COMMENT ON FUNCTION abacus_shard_create(text, text[], integer, text[], double precision[], double precision[]) IS
-    'makes a mesh over several servers, without points: a table of this name, which knows its servers. They are reached by dblink, over foreign servers and user mappings of the caller. Attributes are named after the columns of the query unless names are given. Shapes: servers has a foreign server for each shard; lower and upper are {x, y}, in space {x, y, z}. Units: lower and upper in those of the coordinates. Errors: 42P07 the name is taken, 42704 no such server, 42501 no privilege, 55000 dblink or, on a server, abacus is missing, 08001 no connection, 22023 a bad dimension or domain';
+    'makes a mesh over several servers, without points: a table of this name, which knows its servers. They are reached over foreign servers of postgres_fdw or dblink and user mappings of the caller. Attributes are named after the columns of the query unless names are given. Shapes: servers has a foreign server for each shard; lower and upper are {x, y}, in space {x, y, z}. Units: lower and upper in those of the coordinates. Errors: 42P07 the name is taken, 42704 no such server, 42501 no privilege, 42809 a foreign server of another wrapper, 55000 a server without abacus, 08001 no connection, 2F003 a password is missing, 22023 a bad dimension or domain';
 
 CREATE PROCEDURE abacus_shard_build(mesh regclass, query text)
 AS 'MODULE_PATHNAME', 'abacus_sql_shard_build'

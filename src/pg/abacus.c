@@ -10,6 +10,7 @@
 #include "pg/fdw/published.h"
 #include "pg/levels/levels_table.h"
 #include "pg/mesh/mesh_cache.h"
+#include "pg/shards/connection.h"
 #include "pg/space/vacuum.h"
 #include "pg/track/pending.h"
 #include "pg/track/tracking.h"
@@ -37,6 +38,7 @@ _PG_init(void)
 	vacuum_init();
 	mesh_tell_of_restored(bind_restored);
 	pending_init();
+	connection_init();
 }
 
 /* The version of the module, which may differ from that of the extension's SQL objects. */

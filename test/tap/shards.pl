@@ -173,6 +173,11 @@ fails("SELECT * FROM abacus_shards('one')", qr/42809.*is not a mesh over several
 fails("BEGIN; CALL abacus_shard_build('many', 'SELECT 1, 2, 3, 4')", qr/2D000.*cannot commit/, 'a transaction block');
 fails("CALL abacus_shard_build('many', ARRAY['SELECT 1, 2, 3, 4'])", qr/22023.*1 queries for 4 servers/, 'queries are missing');
 fails("SELECT abacus_shard_create('x', '{nowhere}')", qr/42704.*server "nowhere" does not exist/, 'an unknown server');
+$node->safe_psql('postgres', "CREATE FOREIGN DATA WRAPPER another; CREATE SERVER strange FOREIGN DATA WRAPPER another; CREATE USER MAPPING FOR CURRENT_USER SERVER strange");
+fails("SELECT abacus_shard_create('x', '{strange}')", qr/42809.*is not one of dblink or postgres_fdw/, 'a server of another wrapper');
+fails("SELECT abacus_locate('many', 1, 1); ALTER USER MAPPING FOR CURRENT_USER SERVER s1 OPTIONS (SET user 'nobody'); SELECT abacus_locate('many', 20.2, 20.1) FROM generate_series(1, 2)",
+	qr/08001.*could not connect to server "s1".*role "nobody" does not exist/s, 'a mapping that was altered');
+$node->safe_psql('postgres', "ALTER USER MAPPING FOR CURRENT_USER SERVER s1 OPTIONS (SET user '$user')");
 fails("SELECT abacus_shard_create('x', '{}')", qr/22023.*servers must not be empty/, 'no server');
 fails("SELECT abacus_shard_create('many', '{s1}')", qr/42P07/, 'a name that is taken');
 fails("SELECT abacus_shard_create('x', '{s1}', 4)", qr/22023/, 'another dimension');
@@ -268,7 +273,11 @@ $node->safe_psql('postgres', 'GRANT SELECT ON many TO low');
 fails("SET ROLE low; SELECT abacus_locate('many', 1, 1)", qr/42501.*permission denied for foreign server s1/, 'no right to the server');
 $node->safe_psql('postgres', "GRANT USAGE ON FOREIGN SERVER s1, s2, s3, s4 TO low");
 fails("SET ROLE low; SELECT abacus_locate('many', 1, 1)", qr/user mapping not found for/, 'no user mapping');
-$node->safe_psql('postgres', join ';', map { "CREATE USER MAPPING FOR low SERVER s$_ OPTIONS (user 'low', password 'secret')" } 1 .. 4);
+$node->safe_psql('postgres', join ';', map { "CREATE USER MAPPING FOR low SERVER s$_ OPTIONS (user 'low')" } 1 .. 4);
+fails("SET ROLE low; SELECT abacus_locate('many', 1, 1)", qr/2F003.*password is required/, 'no password');
+$node->safe_psql('postgres', join ';', map { "ALTER USER MAPPING FOR low SERVER s$_ OPTIONS (SET user '$user', ADD password 'secret')" } 1 .. 4);
+fails("SET ROLE low; SELECT abacus_locate('many', 1, 1)", qr/2F003.*password is required/, 'a server that does not ask for the password');
+$node->safe_psql('postgres', join ';', map { "ALTER USER MAPPING FOR low SERVER s$_ OPTIONS (SET user 'low')" } 1 .. 4);
 fails("SET ROLE low; SELECT abacus_locate('many', 1, 1)", qr/42501.*permission denied for table abacus_/, 'no right to the mesh there');
 unlike(slurp_file($node->logfile), qr/password '?secret'? *in|secret.*connection/i, 'no password in errors');
 for my $shard (1 .. 4)

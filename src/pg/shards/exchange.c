@@ -8,7 +8,6 @@
  */
 #include "postgres.h"
 
-#include "executor/spi.h"
 #include "miscadmin.h"
 
 #include "pg/shards/exchange.h"
@@ -66,13 +65,7 @@ count_simplices(const Generation *generation, ShardLinks *links)
 		link_send(links, i, psprintf("SELECT abacus_shard_count('%s', %s)", generation_mesh(generation, i),
 									 shard_sql_stretch(generation, i)));
 	for (int i = 0; i < links->count; i++)
-	{
-		bool		isnull;
-
-		(void) link_rows(links, i, "count bigint");
-		count += DatumGetInt64(SPI_getbinval(SPI_tuptable->vals[0], SPI_tuptable->tupdesc, 1, &isnull));
-		SPI_freetuptable(SPI_tuptable);
-	}
+		count += link_int64(links, i);
 	return count;
 }
 

@@ -229,6 +229,20 @@ generation_require_published(Oid relid, Generation *generation)
 				 errhint("CALL abacus_shard_build for it.")));
 }
 
+/*
+ * The generation that readers see, and connections to its shards, on which all queries of the transaction
+ * see them as they belong together. They end with it.
+ */
+void
+generation_read_links(Oid relid, Generation *generation, ShardLinks *links)
+{
+	generation_require_published(relid, generation);
+	links_prepare(links, generation->servers, generation->shards);
+	links_open(links, CONNECTION_OF_TRANSACTION);
+	for (int i = 0; i < links->count; i++)
+		connection_hold(links->connections[i]);
+}
+
 /* ---- To a row ------------------------------------------------------------------------------- */
 
 static Datum

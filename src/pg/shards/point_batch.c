@@ -1,7 +1,7 @@
 /*
  * point_batch.c: points on their way to a server, as text of SQL.
  *
- * dblink sends text alone. Doubles go as the shortest decimal that gives the same double, so nothing is
+ * Queries go as text. Doubles go as the shortest decimal that gives the same double, so nothing is
  * rounded; an attribute that is missing goes as NULL.
  */
 #include "postgres.h"

@@ -7,7 +7,6 @@
 #include "postgres.h"
 
 #include "catalog/pg_type.h"
-#include "executor/spi.h"
 #include "utils/array.h"
 #include "utils/float.h"
 #include "utils/memutils.h"
@@ -16,8 +15,9 @@
 #include "pg/shards/shard_sql.h"
 
 #define ROWS_A_TIME 4096
-#define EXPORT_COLUMNS \
-	"shard integer, id bigint, x double precision, y double precision, z double precision, attributes double precision[]"
+
+/* Columns of what is exported */
+static const Oid export_columns[] = {INT4OID, INT8OID, FLOAT8OID, FLOAT8OID, FLOAT8OID, FLOAT8ARRAYOID};
 
 typedef struct Relay
 {
@@ -26,6 +26,7 @@ typedef struct Relay
 	int			from;
 	RelayStatement statement;
 	PointBatch *batches;		/* for each receiver */
+	double	   *attributes;
 } Relay;
 
 /* Sends a batch, unless it is empty, when the server has dealt with what was sent before. */
@@ -59,25 +60,26 @@ read_attributes(Datum array, double *attributes, int count)
 					  &values, &nulls, &found);
 	for (int i = 0; i < count; i++)
 		attributes[i] = i >= found || nulls[i] ? get_float8_nan() : DatumGetFloat8(values[i]);
+	pfree(values);
+	pfree(nulls);
 }
 
 static void
-relay_row(Relay *relay, HeapTuple row, TupleDesc desc, double *attributes)
+relay_row(Relay *relay, HeapTuple row, TupleDesc desc)
 {
-	bool		isnull[6];
-	Datum		values[6];
+	Datum		values[lengthof(export_columns)];
 	double		point[ABACUS_MAX_DIMENSION];
 	int			to;
 
 	for (int i = 0; i < lengthof(values); i++)
-		values[i] = SPI_getbinval(row, desc, i + 1, &isnull[i]);
+		values[i] = link_row_value(row, desc, i + 1);
 	to = DatumGetInt32(values[0]);
 	if (to < 0 || to >= relay->generation->shards || to == relay->from)
 		elog(ERROR, "server \"%s\" sends points to shard %d", relay->links->servers[relay->from], to);
 	for (int axis = 0; axis < ABACUS_MAX_DIMENSION; axis++)
 		point[axis] = DatumGetFloat8(values[2 + axis]);
-	read_attributes(values[5], attributes, relay->generation->attribute_count);
-	point_batch_add(&relay->batches[to], DatumGetInt64(values[1]), point, attributes);
+	read_attributes(values[5], relay->attributes, relay->generation->attribute_count);
+	point_batch_add(&relay->batches[to], DatumGetInt64(values[1]), point, relay->attributes);
 	if (point_batch_is_full(&relay->batches[to]))
 		relay_batch(relay->generation, relay->links, relay->from, to, &relay->batches[to], relay->statement);
 }
@@ -87,33 +89,28 @@ int64
 relay_exported(const Generation *generation, ShardLinks *links, int from, RelayStatement statement)
 {
 	Relay		relay = {generation, links, from, statement};
-	double	   *attributes = palloc(Max(1, generation->attribute_count) * sizeof(double));
-	MemoryContext rows = AllocSetContextCreate(CurrentMemoryContext, "Abacus relay", ALLOCSET_DEFAULT_SIZES);
+	TupleDesc	columns = link_columns(lengthof(export_columns), export_columns, NULL);
 	int64		sent = 0;
 	uint64		count;
 
+	relay.attributes = palloc(Max(1, generation->attribute_count) * sizeof(double));
 	relay.batches = palloc(generation->shards * sizeof(PointBatch));
 	for (int i = 0; i < generation->shards; i++)
 		point_batch_init(&relay.batches[i], generation->form.dimension, generation->attribute_count);
 	link_finish(links, from);
 	do
 	{
-		SPITupleTable *table;
-		MemoryContext old;
+		LinkRows   *rows;
 
 		link_send(links, from, shard_sql_exported(sent, sent + ROWS_A_TIME));
-		count = link_rows(links, from, EXPORT_COLUMNS);
-		table = SPI_tuptable;
-		old = MemoryContextSwitchTo(rows);
+		rows = link_rows(links, from, columns);
+		count = rows->count;
 		for (uint64 i = 0; i < count; i++)
-			relay_row(&relay, table->vals[i], table->tupdesc, attributes);
-		MemoryContextSwitchTo(old);
-		MemoryContextReset(rows);
-		SPI_freetuptable(table);
+			relay_row(&relay, rows->rows[i], columns);
+		link_rows_free(rows);
 		sent += (int64) count;
 	} while (count == ROWS_A_TIME);
 	for (int i = 0; i < generation->shards; i++)
 		relay_batch(generation, links, from, i, &relay.batches[i], statement);
-	MemoryContextDelete(rows);
 	return sent;
 }

@@ -59,19 +59,6 @@ shard_call(FunctionCallInfo fcinfo, const char *mesh, int replaced, const char *
 	return call.data;
 }
 
-/* The columns of a result, for dblink. */
-char *
-shard_call_columns(TupleDesc desc)
-{
-	StringInfoData columns;
-
-	initStringInfo(&columns);
-	for (int i = 0; i < desc->natts; i++)
-		appendStringInfo(&columns, "%s%s %s", i == 0 ? "" : ", ", quote_identifier(NameStr(TupleDescAttr(desc, i)->attname)),
-						 format_type_be(TupleDescAttr(desc, i)->atttypid));
-	return columns.data;
-}
-
 /* Whether the argument with this name is this text, or NULL, or the function has no such argument. */
 bool
 shard_call_has_text(FunctionCallInfo fcinfo, const char *name, const char *value)

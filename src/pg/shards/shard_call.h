@@ -6,11 +6,9 @@
 
 #include "postgres.h"
 
-#include "access/tupdesc.h"
 #include "fmgr.h"
 
 extern char *shard_call(FunctionCallInfo fcinfo, const char *mesh, int replaced, const char *const *replacements);
-extern char *shard_call_columns(TupleDesc desc);
 extern bool shard_call_has_text(FunctionCallInfo fcinfo, const char *name, const char *value);
 
 #endif

@@ -12,6 +12,8 @@
  */
 #include "postgres.h"
 
+#include "access/htup_details.h"
+#include "catalog/pg_type.h"
 #include "executor/spi.h"
 #include "funcapi.h"
 #include "utils/builtins.h"
@@ -77,21 +79,20 @@ check_meshes(Examination *examination, ShardLinks *links)
 									 (int) Min(examination->left, PG_INT32_MAX)));
 	for (int i = 0; i < links->count; i++)
 	{
-		uint64		count = link_rows(links, i, "fault text, code bigint, part bigint, message text");
-		SPITupleTable *table = SPI_tuptable;
+		LinkRows   *rows = link_rows(links, i, link_columns(0, NULL, examination->set->setDesc));
 
-		for (uint64 row = 0; row < count; row++)
+		for (uint64 row = 0; row < rows->count; row++)
 		{
 			Datum		values[FAULT_COLUMNS];
 			bool		isnull[FAULT_COLUMNS];
 
-			heap_deform_tuple(table->vals[row], table->tupdesc, values, isnull);
+			heap_deform_tuple(rows->rows[row], rows->desc, values, isnull);
 			if (!isnull[FAULT_MESSAGE])
 				values[FAULT_MESSAGE] =
 					CStringGetTextDatum(psprintf("shard %d: %s", i + 1, TextDatumGetCString(values[FAULT_MESSAGE])));
 			put_fault(examination, values, isnull);
 		}
-		SPI_freetuptable(table);
+		link_rows_free(rows);
 	}
 }
 
@@ -103,11 +104,8 @@ collect_counts(Examination *examination, ShardLinks *links, const char *message)
 	{
 		bool		isnull[FAULT_COLUMNS] = {[FAULT_CODE] = true,[FAULT_PART] = true};
 		Datum		values[FAULT_COLUMNS] = {[FAULT_KIND] = CStringGetTextDatum("shards")};
-		int64		count;
+		int64		count = link_int64(links, i);
 
-		(void) link_rows(links, i, "count bigint");
-		count = DatumGetInt64(SPI_getbinval(SPI_tuptable->vals[0], SPI_tuptable->tupdesc, 1, &(bool) {false}));
-		SPI_freetuptable(SPI_tuptable);
 		if (count == 0)
 			continue;
 		values[FAULT_MESSAGE] = CStringGetTextDatum(psprintf("shard %d: " INT64_FORMAT " %s", i + 1, count, message));

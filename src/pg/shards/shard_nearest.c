@@ -25,9 +25,9 @@
 #define MOST_VERTICES 65536
 
 /* Columns that servers return */
-#define NEAR_COLUMNS \
-	"place bigint, vertex bigint, x double precision, y double precision, z double precision, " \
-	"attributes double precision[], distance double precision"
+static const Oid near_columns[] = {
+	INT8OID, INT8OID, FLOAT8OID, FLOAT8OID, FLOAT8OID, FLOAT8ARRAYOID, FLOAT8OID
+};
 
 enum
 {
@@ -91,7 +91,6 @@ static void
 take_vertex(NearestRead *read, HeapTuple row, TupleDesc desc)
 {
 	NearVertex *near;
-	bool		isnull;
 
 	if (read->found_count == read->found_room)
 	{
@@ -100,12 +99,14 @@ take_vertex(NearestRead *read, HeapTuple row, TupleDesc desc)
 	}
 	near = &read->found[read->found_count++];
 	memset(near, 0, sizeof(*near));
-	near->place = (int) DatumGetInt64(SPI_getbinval(row, desc, NEAR_PLACE, &isnull));
-	near->vertex = DatumGetInt64(SPI_getbinval(row, desc, NEAR_VERTEX, &isnull));
+	near->place = (int) DatumGetInt64(link_row_value(row, desc, NEAR_PLACE));
+	if (near->place < 0 || near->place >= read->count)
+		elog(ERROR, "a server returned a place that it was not asked for");
+	near->vertex = DatumGetInt64(link_row_value(row, desc, NEAR_VERTEX));
 	for (int i = 0; i < (int) read->generation.form.dimension; i++)
-		near->point[i] = DatumGetFloat8(SPI_getbinval(row, desc, NEAR_X + i, &isnull));
-	near->attributes = SPI_getbinval(row, desc, NEAR_ATTRIBUTES, &isnull);
-	near->distance = DatumGetFloat8(SPI_getbinval(row, desc, NEAR_DISTANCE, &isnull));
+		near->point[i] = DatumGetFloat8(link_row_value(row, desc, NEAR_X + i));
+	near->attributes = link_row_value(row, desc, NEAR_ATTRIBUTES);
+	near->distance = DatumGetFloat8(link_row_value(row, desc, NEAR_DISTANCE));
 }
 
 /* By place, then by distance. */
@@ -179,7 +180,7 @@ answer_places(NearestRead *read, ShardLinks *links)
 {
 	MemoryContext scratch = AllocSetContextCreate(CurrentMemoryContext, "Abacus places", ALLOCSET_DEFAULT_SIZES);
 	MemoryContext old = MemoryContextSwitchTo(scratch);
-	SPITupleTable **tables = palloc(links->count * sizeof(SPITupleTable *));
+	TupleDesc	columns = link_columns(lengthof(near_columns), near_columns, NULL);
 
 	read->found_count = 0;
 	read->found_room = 256;
@@ -188,15 +189,12 @@ answer_places(NearestRead *read, ShardLinks *links)
 		link_send(links, i, nearest_query(read, i));
 	for (int i = 0; i < links->count && read->count > 0; i++)
 	{
-		uint64		count = link_rows(links, i, NEAR_COLUMNS);
+		LinkRows   *rows = link_rows(links, i, columns);
 
-		tables[i] = SPI_tuptable;
-		for (uint64 row = 0; row < count; row++)
-			take_vertex(read, tables[i]->vals[row], tables[i]->tupdesc);
+		for (uint64 row = 0; row < rows->count; row++)
+			take_vertex(read, rows->rows[row], columns);
 	}
 	put_nearest(read);
-	for (int i = 0; i < links->count && read->count > 0; i++)
-		SPI_freetuptable(tables[i]);
 	MemoryContextSwitchTo(old);
 	MemoryContextDelete(scratch);
 	read->count = 0;
@@ -209,17 +207,10 @@ begin_read(NearestRead *read, FunctionCallInfo fcinfo, int k, ShardLinks *links)
 {
 	read->set = (ReturnSetInfo *) fcinfo->resultinfo;
 	read->k = (int32) place_count_argument(fcinfo, k, "vertices");
-	generation_require_published(PG_GETARG_OID(0), &read->generation);
-	links_prepare(links, read->generation.servers, read->generation.shards);
+	generation_read_links(PG_GETARG_OID(0), &read->generation, links);
 	read->most = Max(1, Min(MOST_PLACES, MOST_VERTICES / read->k));
 	read->ids = palloc(MOST_PLACES * sizeof(int64));
 	read->points = palloc(MOST_PLACES * ABACUS_MAX_DIMENSION * sizeof(double));
-}
-
-static void
-answer_one(ShardLinks *links, void *context)
-{
-	answer_places(context, links);
 }
 
 /* abacus_nearest of one place, with this many coordinates. */
@@ -235,15 +226,14 @@ shard_read_nearest(FunctionCallInfo fcinfo, int coordinates)
 	place_require_z(coordinates, &read.generation.form);
 	place_arguments_finite(fcinfo, coordinates, &read.generation.form, read.points);
 	read.count = 1;
-	links_run(&links, answer_one, &read);
+	answer_places(&read, &links);
 	SPI_finish();
 	PG_RETURN_NULL();
 }
 
 static void
-answer_query(ShardLinks *links, void *context)
+answer_query(NearestRead *read, ShardLinks *links)
 {
-	NearestRead *read = context;
 	abacus_facts facts = {.form = read->generation.form};
 	int			dimension = (int) facts.form.dimension;
 	const uint64 *records;
@@ -275,7 +265,7 @@ shard_read_nearest_places(FunctionCallInfo fcinfo)
 	InitMaterializedSRF(fcinfo, 0);
 	source_prepare(&read.source, text_to_cstring(PG_GETARG_TEXT_PP(1)));
 	begin_read(&read, fcinfo, 2, &links);
-	links_run(&links, answer_query, &read);
+	answer_query(&read, &links);
 	source_finish(&read.source);
 	PG_RETURN_NULL();
 }

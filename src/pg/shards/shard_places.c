@@ -10,6 +10,7 @@
  */
 #include "postgres.h"
 
+#include "catalog/pg_type.h"
 #include "executor/spi.h"
 #include "funcapi.h"
 #include "utils/builtins.h"
@@ -34,7 +35,7 @@ typedef struct PlacesAsked
 	Generation	generation;
 	int			coordinates;	/* given as arguments, of one place; 0: the places of a query */
 	TupleDesc	desc;			/* of the rows that the servers return, after the number of the place */
-	char	   *columns;
+	TupleDesc	columns;		/* of these rows */
 	int			count;
 	int64	   *ids;
 	double	   *points;
@@ -106,25 +107,22 @@ places_query(PlacesAsked *asked, int shard)
 }
 
 static void
-take_answers(PlacesAsked *asked, int shard)
+take_answers(PlacesAsked *asked, int shard, const LinkRows *rows)
 {
-	for (uint64 i = 0; i < SPI_processed; i++)
+	for (uint64 i = 0; i < rows->count; i++)
 	{
-		HeapTuple	row = SPI_tuptable->vals[i];
-		bool		isnull;
 		bool		not_found;
-		int64		place = DatumGetInt64(SPI_getbinval(row, SPI_tuptable->tupdesc, 1, &isnull));
+		int64		place = DatumGetInt64(link_value(rows, i, 1));
 
-		if (isnull || place < 0 || place >= asked->count)
+		if (place < 0 || place >= asked->count)
 			elog(ERROR, "a server returned a place that it was not asked for");
 		if (asked->settled[place] != NOT_SETTLED && asked->settled[place] != shard)
 			continue;			/* another one has given the same answer */
 		asked->settled[place] = shard;
-		(void) SPI_getbinval(row, SPI_tuptable->tupdesc, 2, &not_found);
+		(void) link_value_or_null(rows, i, 2, &not_found);
 		if (!not_found)
-			asked->put(asked, (int) place, row, SPI_tuptable->tupdesc);
+			asked->put(asked, (int) place, rows->rows[i], rows->desc);
 	}
-	SPI_freetuptable(SPI_tuptable);
 }
 
 /* Asks all shards for which there are places. */
@@ -139,10 +137,13 @@ ask_shards(PlacesAsked *asked, ShardLinks *links)
 			link_send(links, i, places_query(asked, i));
 	for (int i = 0; i < links->count; i++)
 	{
+		LinkRows   *rows;
+
 		if (asked->asked[i].len == 0)
 			continue;
-		(void) link_rows(links, i, asked->columns);
-		take_answers(asked, i);
+		rows = link_rows(links, i, asked->columns);
+		take_answers(asked, i, rows);
+		link_rows_free(rows);
 		resetStringInfo(&asked->asked[i]);
 		resetStringInfo(&asked->asked_points[i]);
 	}
@@ -166,9 +167,8 @@ may_be_inside(const PlacesAsked *asked, int place)
 
 /* Answers the places that are there. */
 static void
-answer_places(ShardLinks *links, void *context)
+answer_places(PlacesAsked *asked, ShardLinks *links)
 {
-	PlacesAsked *asked = context;
 	const Generation *generation = &asked->generation;
 	int			dimension = (int) generation->form.dimension;
 
@@ -219,8 +219,7 @@ open_places(PlacesAsked *asked, FunctionCallInfo fcinfo, ShardLinks *links)
 {
 	asked->fcinfo = fcinfo;
 	refuse_methods(fcinfo);
-	generation_require_published(PG_GETARG_OID(0), &asked->generation);
-	links_prepare(links, asked->generation.servers, asked->generation.shards);
+	generation_read_links(PG_GETARG_OID(0), &asked->generation, links);
 	begin_places(asked);
 }
 
@@ -283,11 +282,10 @@ shard_read_place(FunctionCallInfo fcinfo, int coordinates)
 	open_places(&asked, fcinfo, &links);
 	if (get_call_result_type(fcinfo, &type, &asked.desc) != TYPEFUNC_COMPOSITE)
 		asked.desc = NULL;
-	asked.columns = psprintf("place bigint, found boolean, %s",
-							 asked.desc == NULL ? psprintf("value %s", format_type_be(type))
-							 : shard_call_columns(asked.desc));
+	asked.columns = asked.desc == NULL ? link_columns(3, (Oid[]) {INT8OID, BOOLOID, type}, NULL)
+		: link_columns(2, (Oid[]) {INT8OID, BOOLOID}, asked.desc);
 	if (place_of_arguments(&asked, fcinfo, coordinates))
-		links_run(&links, answer_places, &asked);
+		answer_places(&asked, &links);
 	SPI_finish();
 	if (!asked.has_value)
 		PG_RETURN_NULL();
@@ -324,9 +322,9 @@ shard_read_place_rows(FunctionCallInfo fcinfo, int coordinates)
 			PG_RETURN_NULL();
 	SPI_connect();
 	open_places(&asked, fcinfo, &links);
-	asked.columns = psprintf("place bigint, found boolean, %s", shard_call_columns(asked.set->setDesc));
+	asked.columns = link_columns(2, (Oid[]) {INT8OID, BOOLOID}, asked.set->setDesc);
 	if (place_of_arguments(&asked, fcinfo, coordinates))
-		links_run(&links, answer_places, &asked);
+		answer_places(&asked, &links);
 	SPI_finish();
 	PG_RETURN_NULL();
 }
@@ -357,9 +355,8 @@ typedef struct QueryRead
 } QueryRead;
 
 static void
-answer_query(ShardLinks *links, void *context)
+answer_query(QueryRead *read, ShardLinks *links)
 {
-	QueryRead  *read = context;
 	PlacesAsked *asked = read->asked;
 	int			words = 1 + (int) asked->generation.form.dimension;
 	const uint64 *records;
@@ -369,7 +366,7 @@ answer_query(ShardLinks *links, void *context)
 	while ((count = source_fetch(&read->source, &records)) > 0)
 	{
 		if (asked->count + (int) count > PLACES_AT_ONCE)
-			answer_places(links, asked);
+			answer_places(asked, links);
 		for (size_t i = 0; i < count; i++)
 		{
 			const uint64 *record = records + i * words;
@@ -380,7 +377,7 @@ answer_query(ShardLinks *links, void *context)
 		}
 	}
 	source_close(&read->source);
-	answer_places(links, asked);
+	answer_places(asked, links);
 }
 
 /* The rows of a function of a query's places; with `has_row_outside` also of those outside. */
@@ -400,8 +397,8 @@ shard_read_places(FunctionCallInfo fcinfo, bool has_row_outside)
 	source_prepare(&read.source, text_to_cstring(PG_GETARG_TEXT_PP(1)));
 	open_places(&asked, fcinfo, &links);
 	read.facts.form = asked.generation.form;
-	asked.columns = psprintf("place bigint, found boolean, %s", shard_call_columns(asked.set->setDesc));
-	links_run(&links, answer_query, &read);
+	asked.columns = link_columns(2, (Oid[]) {INT8OID, BOOLOID}, asked.set->setDesc);
+	answer_query(&read, &links);
 	source_finish(&read.source);
 	PG_RETURN_NULL();
 }

@@ -43,30 +43,25 @@ owned_rows(const RowsRead *read, int shard)
 					"g.z = coalesce(r.z, 0))", mesh);
 }
 
-/* Copies the rows of the last query to the result. */
 static void
-take_rows(ReturnSetInfo *set)
+put_row(void *context, HeapTuple row, TupleDesc desc)
 {
-	for (uint64 i = 0; i < SPI_processed; i++)
-		tuplestore_puttuple(set->setResult, SPI_tuptable->vals[i]);
-	SPI_freetuptable(SPI_tuptable);
+	ReturnSetInfo *set = context;
+
+	tuplestore_puttuple(set->setResult, row);
 }
 
 static void
-read_rows(ShardLinks *links, void *context)
+read_rows(RowsRead *read, ShardLinks *links)
 {
-	RowsRead   *read = context;
-	char	   *columns = shard_call_columns(read->set->setDesc);
+	TupleDesc	columns = link_columns(0, NULL, read->set->setDesc);
 
 	for (int i = 0; i < links->count; i++)
 		link_send(links, i, psprintf("SELECT r.* FROM %s AS r WHERE %s",
 									 shard_call(read->fcinfo, generation_mesh(&read->generation, i), 0, NULL),
 									 owned_rows(read, i)));
 	for (int i = 0; i < links->count; i++)
-	{
-		(void) link_rows(links, i, columns);
-		take_rows(read->set);
-	}
+		(void) link_each_row(links, i, columns, put_row, read->set);
 }
 
 /* The rows of a function, of all shards. */
@@ -78,9 +73,8 @@ shard_read_rows(FunctionCallInfo fcinfo, ShardRows rows)
 
 	InitMaterializedSRF(fcinfo, 0);
 	SPI_connect();
-	generation_require_published(PG_GETARG_OID(0), &read.generation);
-	links_prepare(&links, read.generation.servers, read.generation.shards);
-	links_run(&links, read_rows, &read);
+	generation_read_links(PG_GETARG_OID(0), &read.generation, &links);
+	read_rows(&read, &links);
 	SPI_finish();
 	PG_RETURN_NULL();
 }

@@ -3,13 +3,13 @@
  */
 #include "postgres.h"
 
-#include "executor/spi.h"
+#include "catalog/pg_type.h"
 #include "utils/builtins.h"
 
 #include "pg/shards/shard_state.h"
 
-#define STATE_COLUMNS \
-	"points bigint, vertices bigint, duplicates bigint, guests bigint, bytes bigint, doing text"
+/* Columns: the figures of ShardState, and what it does */
+static const Oid state_columns[] = {INT8OID, INT8OID, INT8OID, INT8OID, INT8OID, TEXTOID};
 
 static char *
 state_query(const char *mesh)
@@ -29,34 +29,23 @@ state_query(const char *mesh)
 static bool
 exists(const Generation *generation, ShardLinks *links, int shard)
 {
-	bool		isnull;
-	bool		is;
-
-	link_send(links, shard, psprintf("SELECT to_regclass('%s') IS NOT NULL", generation_mesh(generation, shard)));
-	(void) link_rows(links, shard, "exists boolean");
-	is = DatumGetBool(SPI_getbinval(SPI_tuptable->vals[0], SPI_tuptable->tupdesc, 1, &isnull));
-	SPI_freetuptable(SPI_tuptable);
-	return is;
+	link_send(links, shard, psprintf("SELECT count(to_regclass('%s'))", generation_mesh(generation, shard)));
+	return link_int64(links, shard) > 0;
 }
 
 static void
 read_state(ShardLinks *links, int shard, ShardState *state)
 {
 	int64	   *const figures[] = {&state->points, &state->vertices, &state->duplicates, &state->guests, &state->bytes};
-	HeapTuple	row;
-	TupleDesc	desc;
+	LinkRows   *rows = link_rows(links, shard, link_columns(lengthof(state_columns), state_columns, NULL));
+	Datum		doing;
+	bool		isnull;
 
-	(void) link_rows(links, shard, STATE_COLUMNS);
-	row = SPI_tuptable->vals[0];
-	desc = SPI_tuptable->tupdesc;
 	for (int i = 0; i < lengthof(figures); i++)
-	{
-		bool		isnull;
-
-		*figures[i] = DatumGetInt64(SPI_getbinval(row, desc, i + 1, &isnull));
-	}
-	state->doing = SPI_getvalue(row, desc, lengthof(figures) + 1);
-	SPI_freetuptable(SPI_tuptable);
+		*figures[i] = DatumGetInt64(link_value(rows, 0, i + 1));
+	doing = link_value_or_null(rows, 0, lengthof(figures) + 1, &isnull);
+	state->doing = isnull ? NULL : TextDatumGetCString(doing);
+	link_rows_free(rows);
 }
 
 /* One for each shard; those without a mesh have nothing. */

@@ -13,7 +13,6 @@
 #include "postgres.h"
 
 #include "catalog/pg_type.h"
-#include "executor/spi.h"
 #include "utils/array.h"
 #include "utils/builtins.h"
 
@@ -149,14 +148,15 @@ spread_query(Spreading *spreading, ShardLinks *links)
 /* ---- A query for each shard, run there ------------------------------------------------------ */
 
 /* What a server has found out about its points. */
-#define SURVEY_COLUMNS \
-	"points bigint, attributes text[], least double precision[], greatest double precision[], sample double precision[]"
+static const Oid survey_columns[] = {INT8OID, TEXTARRAYOID, FLOAT8ARRAYOID, FLOAT8ARRAYOID, FLOAT8ARRAYOID};
 
 static const double *
 numbers_of(Datum array, int *count)
 {
 	ArrayType  *numbers = DatumGetArrayTypeP(array);
 
+	if (array_contains_nulls(numbers) || ARR_NDIM(numbers) > 1)
+		elog(ERROR, "a server returned a survey with NULLs");
 	*count = ARR_NDIM(numbers) == 0 ? 0 : ARR_DIMS(numbers)[0];
 	return (const double *) ARR_DATA_PTR(numbers);
 }
@@ -184,26 +184,20 @@ static void
 merge_survey(Spreading *spreading, ShardLinks *links, ShardSurvey *survey, int shard)
 {
 	abacus_box	box;
-	bool		isnull;
-	HeapTuple	row;
-	TupleDesc	desc;
+	LinkRows   *rows = link_rows(links, shard, link_columns(lengthof(survey_columns), survey_columns, NULL));
 	int			dimension = (int) spreading->header.facts.form.dimension;
 	int			count;
 	const double *numbers;
 
-	if (link_rows(links, shard, SURVEY_COLUMNS) != 1)
-		elog(ERROR, "server \"%s\" made no survey", links->servers[shard]);
-	row = SPI_tuptable->vals[0];
-	desc = SPI_tuptable->tupdesc;
-	merge_names(spreading, SPI_getbinval(row, desc, 2, &isnull), shard);
-	numbers = numbers_of(SPI_getbinval(row, desc, 3, &isnull), &count);
+	merge_names(spreading, link_value(rows, 0, 2), shard);
+	numbers = numbers_of(link_value(rows, 0, 3), &count);
 	memcpy(box.lower, numbers, Min(count, dimension) * sizeof(double));
-	numbers = numbers_of(SPI_getbinval(row, desc, 4, &isnull), &count);
+	numbers = numbers_of(link_value(rows, 0, 4), &count);
 	memcpy(box.upper, numbers, Min(count, dimension) * sizeof(double));
-	numbers = numbers_of(SPI_getbinval(row, desc, 5, &isnull), &count);
-	host_run(survey->host, abacus_survey_merge, survey->survey, (uint64) DatumGetInt64(SPI_getbinval(row, desc, 1, &isnull)),
+	numbers = numbers_of(link_value(rows, 0, 5), &count);
+	host_run(survey->host, abacus_survey_merge, survey->survey, (uint64) DatumGetInt64(link_value(rows, 0, 1)),
 			 &box, numbers, (size_t) (count / dimension));
-	SPI_freetuptable(SPI_tuptable);
+	link_rows_free(rows);
 }
 
 static void

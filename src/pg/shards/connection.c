@@ -1,0 +1,612 @@
+/*
+ * connection.c: a session's connections to other servers, by libpq.
+ *
+ * A query is sent, and its rows are taken one by one: so a result need not fit into memory, and servers
+ * work side by side while the answer of one of them is read. All waiting is for the socket and the latch,
+ * and ends with an interrupt.
+ *
+ * Connections stay open for the next call of the session, and end with it. After an error, those that the
+ * failed (sub)transaction holds are of no use: whatever runs there is cancelled, and they are closed. If
+ * the server or the user mapping is altered, a connection is closed before it is used again.
+ *
+ * Connections are records in memory that lasts, and never move.
+ */
+#include "postgres.h"
+
+#include <libpq-fe.h>
+
+#include "access/xact.h"
+#include "catalog/pg_foreign_server.h"
+#include "foreign/foreign.h"
+#include "funcapi.h"
+#include "lib/ilist.h"
+#include "mb/pg_wchar.h"
+#include "miscadmin.h"
+#include "storage/fd.h"
+#include "storage/ipc.h"
+#include "storage/latch.h"
+#include "utils/acl.h"
+#include "utils/builtins.h"
+#include "utils/inval.h"
+#include "utils/memutils.h"
+#include "utils/syscache.h"
+#include "utils/wait_event.h"
+
+#include "pg/port/port.h"
+#include "pg/shards/connection.h"
+#include "pg/shards/connection_options.h"
+
+struct Connection
+{
+	slist_node	node;			/* in `connections` */
+	Oid			server;
+	Oid			user;
+	int			number;			/* several shards may be on one server */
+	ConnectionKind kind;
+	PGconn	   *conn;			/* NULL: not connected */
+	char	   *name;			/* of the server */
+	uint32		server_hash;	/* of the catalogue's entries that it was made from */
+	uint32		mapping_hash;
+	bool		is_stale;		/* they were changed */
+	bool		is_busy;		/* a query was sent, and not all of its results are in */
+	int			level;			/* nesting of the transaction that holds it; 0: none */
+	StringInfoData warnings;	/* of the server, not yet reported */
+};
+
+static slist_head connections = SLIST_STATIC_INIT(connections);
+static MemoryContext memory;
+
+/* ---- Closing -------------------------------------------------------------------------------- */
+
+static void
+disconnect(Connection *connection)
+{
+	if (connection->conn == NULL)
+		return;
+	PQfinish(connection->conn);
+	ReleaseExternalFD();
+	connection->conn = NULL;
+	connection->is_busy = false;
+	connection->level = 0;
+}
+
+/* Ends what runs there, and the connection. Raises no error. */
+static void
+abandon(Connection *connection)
+{
+	PGcancel   *cancel = connection->is_busy ? PQgetCancel(connection->conn) : NULL;
+	char		problem[256];
+
+	if (cancel != NULL)
+	{
+		(void) PQcancel(cancel, problem, sizeof(problem));
+		PQfreeCancel(cancel);
+	}
+	disconnect(connection);
+}
+
+static void
+abandon_from(int level)
+{
+	slist_iter	iter;
+
+	slist_foreach(iter, &connections)
+	{
+		Connection *connection = slist_container(Connection, node, iter.cur);
+
+		if (connection->level >= level && connection->conn != NULL)
+			abandon(connection);
+	}
+}
+
+/* Connections held at this level or a deeper one are held by the one above. */
+static void
+pass_up(int level)
+{
+	slist_iter	iter;
+
+	slist_foreach(iter, &connections)
+	{
+		Connection *connection = slist_container(Connection, node, iter.cur);
+
+		connection->level = Min(connection->level, level - 1);
+	}
+}
+
+static void
+at_transaction_event(XactEvent event, void *arg)
+{
+	if (event == XACT_EVENT_ABORT)
+		abandon_from(1);
+	else if (event == XACT_EVENT_COMMIT || event == XACT_EVENT_PREPARE)
+		pass_up(1);
+}
+
+static void
+at_subtransaction_event(SubXactEvent event, SubTransactionId id, SubTransactionId parent, void *arg)
+{
+	if (event == SUBXACT_EVENT_ABORT_SUB)
+		abandon_from(GetCurrentTransactionNestLevel());
+	else if (event == SUBXACT_EVENT_COMMIT_SUB)
+		pass_up(GetCurrentTransactionNestLevel());
+}
+
+static void
+at_exit(int code, Datum arg)
+{
+	slist_iter	iter;
+
+	slist_foreach(iter, &connections)
+		disconnect(slist_container(Connection, node, iter.cur));
+}
+
+/* A foreign server or a user mapping was altered; 0 stands for all. */
+static void
+at_change(Datum arg, int cache, uint32 hash)
+{
+	slist_iter	iter;
+
+	slist_foreach(iter, &connections)
+	{
+		Connection *connection = slist_container(Connection, node, iter.cur);
+
+		connection->is_stale |= hash == 0 ||
+			hash == (cache == FOREIGNSERVEROID ? connection->server_hash : connection->mapping_hash);
+	}
+}
+
+void
+connection_init(void)
+{
+	RegisterXactCallback(at_transaction_event, NULL);
+	RegisterSubXactCallback(at_subtransaction_event, NULL);
+	CacheRegisterSyscacheCallback(FOREIGNSERVEROID, at_change, (Datum) 0);
+	CacheRegisterSyscacheCallback(USERMAPPINGOID, at_change, (Datum) 0);
+}
+
+/* ---- Errors and warnings -------------------------------------------------------------------- */
+
+/* Reports what the server has sent so far; so outside of libpq's functions, which nothing may leave. */
+static void
+report_warnings(Connection *connection)
+{
+	char	   *text;
+
+	if (connection->warnings.len == 0)
+		return;
+	text = pstrdup(connection->warnings.data);
+	resetStringInfo(&connection->warnings);
+	ereport(WARNING,
+			(errmsg_internal("%s", pchomp(text)),
+			 errcontext("server \"%s\"", connection->name)));
+	pfree(text);
+}
+
+/* Called by libpq. There must be room: an error cannot leave it. */
+static void
+keep_warning(void *arg, const PGresult *result)
+{
+	Connection *connection = arg;
+	const char *text = PQresultErrorField(result, PG_DIAG_MESSAGE_PRIMARY);
+	size_t		length = text == NULL ? 0 : strlen(text);
+
+	if (connection->warnings.len + length + 2 > (size_t) connection->warnings.maxlen)
+		return;
+	appendBinaryStringInfo(&connection->warnings, text, (int) length);
+	appendStringInfoChar(&connection->warnings, '\n');
+}
+
+static void
+report_lost(Connection *connection)
+{
+	char	   *why = pchomp(PQerrorMessage(connection->conn));
+
+	ereport(ERROR,
+			(errcode(ERRCODE_CONNECTION_FAILURE),
+			 errmsg("connection to server \"%s\" is lost", connection->name),
+			 why[0] != '\0' ? errdetail_internal("%s", why) : 0,
+			 errhint("Call the function again: it connects anew.")));
+}
+
+/* Raises the error of a result, which is freed. */
+static void
+report_error(Connection *connection, PGresult *result)
+{
+	const char *state = PQresultErrorField(result, PG_DIAG_SQLSTATE);
+	const char *texts[] = {
+		PQresultErrorField(result, PG_DIAG_MESSAGE_PRIMARY), PQresultErrorField(result, PG_DIAG_MESSAGE_DETAIL),
+		PQresultErrorField(result, PG_DIAG_MESSAGE_HINT)
+	};
+	int			code;
+
+	if (state == NULL || PQstatus(connection->conn) == CONNECTION_BAD)
+	{
+		PQclear(result);
+		report_lost(connection);
+	}
+	code = MAKE_SQLSTATE(state[0], state[1], state[2], state[3], state[4]);
+	for (int i = 0; i < lengthof(texts); i++)
+		texts[i] = texts[i] == NULL ? NULL : pstrdup(texts[i]);
+	PQclear(result);
+	ereport(ERROR,
+			(errcode(code),
+			 errmsg_internal("%s", texts[0] == NULL ? "unknown error" : texts[0]),
+			 texts[1] == NULL ? 0 : errdetail_internal("%s", texts[1]),
+			 texts[2] == NULL ? 0 : errhint("%s", texts[2]),
+			 errcontext("server \"%s\"", connection->name)));
+}
+
+/* ---- Opening -------------------------------------------------------------------------------- */
+
+static void
+wait_for_socket(PGconn *conn, int events)
+{
+	int			happened = WaitLatchOrSocket(MyLatch, WL_LATCH_SET | WL_EXIT_ON_PM_DEATH | events, PQsocket(conn), -1,
+											 PG_WAIT_EXTENSION);
+
+	if (happened & WL_LATCH_SET)
+	{
+		ResetLatch(MyLatch);
+		CHECK_FOR_INTERRUPTS();
+	}
+}
+
+static void
+require_connection(Connection *connection, bool needs_password)
+{
+	char	   *why;
+
+	if (PQstatus(connection->conn) != CONNECTION_OK)
+	{
+		why = pchomp(PQerrorMessage(connection->conn));
+		disconnect(connection);
+		ereport(ERROR,
+				(errcode(ERRCODE_SQLCLIENT_UNABLE_TO_ESTABLISH_SQLCONNECTION),
+				 errmsg("could not connect to server \"%s\"", connection->name),
+				 errdetail_internal("%s", why)));
+	}
+	if (needs_password && !PQconnectionUsedPassword(connection->conn))
+	{
+		disconnect(connection);
+		connection_require_password(connection->name);
+	}
+}
+
+static void
+wait_for_connection(PGconn *conn)
+{
+	PostgresPollingStatusType state = PGRES_POLLING_WRITING;
+
+	while (PQstatus(conn) != CONNECTION_BAD && state != PGRES_POLLING_OK && state != PGRES_POLLING_FAILED)
+	{
+		wait_for_socket(conn, state == PGRES_POLLING_READING ? WL_SOCKET_READABLE : WL_SOCKET_WRITEABLE);
+		state = PQconnectPoll(conn);
+	}
+}
+
+static void
+begin_connection(Connection *connection, const ConnectionOptions *options)
+{
+	if (!AcquireExternalFD())
+		ereport(ERROR,
+				(errcode(ERRCODE_SQLCLIENT_UNABLE_TO_ESTABLISH_SQLCONNECTION),
+				 errmsg("could not connect to server \"%s\"", connection->name),
+				 errdetail("There are too many open files on the local server."),
+				 errhint("Raise the server's max_files_per_process and/or \"ulimit -n\" limits.")));
+	connection->conn = PQconnectStartParams(options->names, options->values, false);
+	if (connection->conn == NULL)
+	{
+		ReleaseExternalFD();
+		ereport(ERROR,
+				(errcode(ERRCODE_OUT_OF_MEMORY),
+				 errmsg("out of memory")));
+	}
+	PG_TRY();
+	{
+		wait_for_connection(connection->conn);
+		require_connection(connection, options->needs_password);
+		if (PQsetnonblocking(connection->conn, 1) != 0)
+			report_lost(connection);
+	}
+	PG_CATCH();
+	{
+		disconnect(connection);
+		PG_RE_THROW();
+	}
+	PG_END_TRY();
+	(void) PQsetNoticeReceiver(connection->conn, keep_warning, connection);
+}
+
+static void
+keep_count(void *context, HeapTuple row, TupleDesc desc)
+{
+}
+
+/* Lets names of this extension's functions be found there, and doubles come with all their digits. */
+static void
+begin_session(Connection *connection)
+{
+	TupleDesc	columns = CreateTemplateTupleDesc(1);
+
+	TupleDescInitEntry(columns, 1, "path", TEXTOID, -1, 0);
+	connection_send(connection, "SET extra_float_digits = 1; SET client_min_messages = warning; SET DateStyle = ISO; "
+					"SET IntervalStyle = postgres");
+	connection_finish(connection);
+	connection_send(connection,
+					"SELECT pg_catalog.set_config('search_path', pg_catalog.concat_ws(', ', "
+					"nullif(pg_catalog.current_setting('search_path'), ''), pg_catalog.quote_ident(n.nspname)), false) "
+					"FROM pg_catalog.pg_extension AS e JOIN pg_catalog.pg_namespace AS n ON n.oid = e.extnamespace "
+					"WHERE e.extname = 'abacus'");
+	if (connection_rows(connection, columns, keep_count, NULL) == 0)
+		ereport(ERROR,
+				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
+				 errmsg("server \"%s\" does not have the extension abacus", connection->name),
+				 errhint("CREATE EXTENSION abacus in the database of the server.")));
+}
+
+static void
+open_connection(Connection *connection, ForeignServer *server)
+{
+	UserMapping *mapping = GetUserMapping(GetUserId(), server->serverid);
+	ConnectionOptions options = connection_options(server, mapping);
+
+	connection->server_hash = GetSysCacheHashValue1(FOREIGNSERVEROID, ObjectIdGetDatum(server->serverid));
+	connection->mapping_hash = GetSysCacheHashValue1(USERMAPPINGOID, ObjectIdGetDatum(mapping->umid));
+	connection->is_stale = false;
+	begin_connection(connection, &options);
+	PG_TRY();
+	{
+		begin_session(connection);
+	}
+	PG_CATCH();
+	{
+		abandon(connection);
+		PG_RE_THROW();
+	}
+	PG_END_TRY();
+}
+
+static Connection *
+find(Oid server, int number, ConnectionKind kind)
+{
+	slist_iter	iter;
+
+	slist_foreach(iter, &connections)
+	{
+		Connection *connection = slist_container(Connection, node, iter.cur);
+
+		if (connection->server == server && connection->user == GetUserId() && connection->number == number &&
+			connection->kind == kind)
+			return connection;
+	}
+	return NULL;
+}
+
+static Connection *
+new_connection(ForeignServer *server, int number, ConnectionKind kind)
+{
+	Connection *connection;
+	MemoryContext old;
+
+	if (memory == NULL)
+	{
+		memory = AllocSetContextCreate(TopMemoryContext, "Abacus connections", ALLOCSET_SMALL_SIZES);
+		on_proc_exit(at_exit, (Datum) 0);
+	}
+	old = MemoryContextSwitchTo(memory);
+	connection = palloc0(sizeof(Connection));
+	connection->server = server->serverid;
+	connection->user = GetUserId();
+	connection->number = number;
+	connection->kind = kind;
+	connection->name = pstrdup(server->servername);
+	initStringInfo(&connection->warnings);
+	enlargeStringInfo(&connection->warnings, 8192);
+	MemoryContextSwitchTo(old);
+	slist_push_head(&connections, &connection->node);
+	return connection;
+}
+
+/* The session's connection of this kind and number to a server; connects if there is none. */
+Connection *
+connection_get(const char *name, int number, ConnectionKind kind)
+{
+	ForeignServer *server = GetForeignServerByName(name, false);
+	Connection *connection = find(server->serverid, number, kind);
+
+	if (object_aclcheck(ForeignServerRelationId, server->serverid, GetUserId(), ACL_USAGE) != ACLCHECK_OK)
+		aclcheck_error(ACLCHECK_NO_PRIV, OBJECT_FOREIGN_SERVER, server->servername);
+	if (connection == NULL)
+		connection = new_connection(server, number, kind);
+	if (connection->conn != NULL && connection->level == 0 &&
+		(connection->is_stale || PQstatus(connection->conn) != CONNECTION_OK))
+		disconnect(connection);
+	if (connection->conn == NULL)
+		open_connection(connection, server);
+	return connection;
+}
+
+/* Until it is let go, the connection ends if this (sub)transaction fails. */
+void
+connection_hold(Connection *connection)
+{
+	if (connection->level == 0)
+		connection->level = GetCurrentTransactionNestLevel();
+}
+
+void
+connection_let_go(Connection *connection)
+{
+	connection->level = 0;
+}
+
+const char *
+connection_server(const Connection *connection)
+{
+	return connection->name;
+}
+
+bool
+connection_is_busy(const Connection *connection)
+{
+	return connection->is_busy;
+}
+
+/* ---- Queries -------------------------------------------------------------------------------- */
+
+/* Sends a query, or several, to a server that has none to answer. */
+void
+connection_send(Connection *connection, const char *query)
+{
+	int			left;
+
+	if (connection->is_busy)
+		ereport(ERROR,
+				(errcode(ERRCODE_OBJECT_IN_USE),
+				 errmsg("the connection to server \"%s\" is busy with another query of this session",
+						connection->name)));
+	if (PQsendQuery(connection->conn, query) != 1)
+		report_lost(connection);
+	connection->is_busy = true;
+	if (PQsetSingleRowMode(connection->conn) != 1)
+		report_lost(connection);
+	while ((left = PQflush(connection->conn)) > 0)
+	{
+		wait_for_socket(connection->conn, WL_SOCKET_READABLE | WL_SOCKET_WRITEABLE);
+		if (PQconsumeInput(connection->conn) != 1)
+			report_lost(connection);
+	}
+	if (left < 0)
+		report_lost(connection);
+}
+
+/* The next result, or NULL after the last. */
+static PGresult *
+next_result(Connection *connection)
+{
+	PGresult   *result;
+
+	while (PQisBusy(connection->conn))
+	{
+		wait_for_socket(connection->conn, WL_SOCKET_READABLE);
+		if (PQconsumeInput(connection->conn) != 1)
+			report_lost(connection);
+	}
+	report_warnings(connection);
+	result = PQgetResult(connection->conn);
+	if (result == NULL)
+		connection->is_busy = false;
+	return result;
+}
+
+/* After an error the rest comes, too: the connection is free again, and the error is raised. */
+static void
+fail(Connection *connection, PGresult *result)
+{
+	PGresult   *next;
+
+	PG_TRY();
+	{
+		while (PQstatus(connection->conn) != CONNECTION_BAD && (next = next_result(connection)) != NULL)
+			PQclear(next);
+	}
+	PG_CATCH();
+	{
+		PQclear(result);
+		PG_RE_THROW();
+	}
+	PG_END_TRY();
+	report_error(connection, result);
+}
+
+/* The rows of a result; frees it. */
+static uint64
+take_rows(Connection *connection, PGresult *result, AttInMetadata *meta, char **values, MemoryContext rows,
+		  ConnectionRow take, void *context)
+{
+	TupleDesc	columns = meta->tupdesc;
+	uint64		count = (uint64) PQntuples(result);
+
+	PG_TRY();
+	{
+		MemoryContext old = CurrentMemoryContext;
+
+		if (PQnfields(result) != columns->natts)
+			ereport(ERROR,
+					(errcode(ERRCODE_FDW_ERROR),
+					 errmsg("server \"%s\" returned %d columns instead of %d", connection->name, PQnfields(result),
+							columns->natts),
+					 errhint("Let coordinator and servers have the same version of abacus.")));
+		for (int row = 0; row < PQntuples(result); row++)
+		{
+			HeapTuple	tuple;
+
+			MemoryContextSwitchTo(rows);
+			for (int i = 0; i < columns->natts; i++)
+				values[i] = PQgetisnull(result, row, i) ? NULL : PQgetvalue(result, row, i);
+			tuple = BuildTupleFromCStrings(meta, values);
+			MemoryContextSwitchTo(old);
+			take(context, tuple, columns);
+			MemoryContextReset(rows);
+		}
+	}
+	PG_FINALLY();
+	{
+		PQclear(result);
+	}
+	PG_END_TRY();
+	return count;
+}
+
+/*
+ * Calls take() for each row of the single query that was sent, whose columns have these types. Returns how
+ * many they are.
+ */
+uint64
+connection_rows(Connection *connection, TupleDesc columns, ConnectionRow take, void *context)
+{
+	AttInMetadata *meta = TupleDescGetAttInMetadata(columns);
+	char	  **values = palloc(Max(1, columns->natts) * sizeof(char *));
+	MemoryContext rows = AllocSetContextCreate(CurrentMemoryContext, "Abacus rows of a server", ALLOCSET_DEFAULT_SIZES);
+	uint64		count = 0;
+	PGresult   *result;
+
+	while ((result = next_result(connection)) != NULL)
+		switch (PQresultStatus(result))
+		{
+			case PGRES_SINGLE_TUPLE:
+			case PGRES_TUPLES_OK:
+				count += take_rows(connection, result, meta, values, rows, take, context);
+				break;
+			case PGRES_COMMAND_OK:
+				PQclear(result);
+				break;
+			default:
+				fail(connection, result);
+		}
+	MemoryContextDelete(rows);
+	pfree(values);
+	return count;
+}
+
+/* Waits for what was sent, and leaves its rows out. */
+void
+connection_finish(Connection *connection)
+{
+	PGresult   *result;
+
+	if (!connection->is_busy)
+		return;
+	while ((result = next_result(connection)) != NULL)
+		switch (PQresultStatus(result))
+		{
+			case PGRES_SINGLE_TUPLE:
+			case PGRES_TUPLES_OK:
+			case PGRES_COMMAND_OK:
+			case PGRES_EMPTY_QUERY:
+				PQclear(result);
+				break;
+			default:
+				fail(connection, result);
+		}
+}
