@@ -373,6 +373,7 @@ PG_SOURCES += src/pg/postgis/geometry_write.c
 PG_SOURCES += src/pg/postgis/reference_system.c
 PG_SOURCES += src/pg/shards/connection.c
 PG_SOURCES += src/pg/shards/connection_options.c
+PG_SOURCES += src/pg/shards/connection_query.c
 PG_SOURCES += src/pg/shards/exchange.c
 PG_SOURCES += src/pg/shards/generation.c
 PG_SOURCES += src/pg/shards/links.c

@@ -1,9 +1,5 @@
 /*
- * connection.c: a session's connections to other servers, by libpq.
- *
- * A query is sent, and its rows are taken one by one: so a result need not fit into memory, and servers
- * work side by side while the answer of one of them is read. All waiting is for the socket and the latch,
- * and ends with an interrupt.
+ * connection.c: a session's connections to other servers, opened and closed.
  *
  * Connections stay open for the next call of the session, and end with it. After an error, those that the
  * failed (sub)transaction holds are of no use: whatever runs there is cancelled, and they are closed. If
@@ -13,18 +9,13 @@
  */
 #include "postgres.h"
 
-#include <libpq-fe.h>
-
 #include "access/xact.h"
 #include "catalog/pg_foreign_server.h"
 #include "foreign/foreign.h"
 #include "funcapi.h"
-#include "lib/ilist.h"
-#include "mb/pg_wchar.h"
 #include "miscadmin.h"
 #include "storage/fd.h"
 #include "storage/ipc.h"
-#include "storage/latch.h"
 #include "utils/acl.h"
 #include "utils/builtins.h"
 #include "utils/inval.h"
@@ -33,25 +24,8 @@
 #include "utils/wait_event.h"
 
 #include "pg/port/port.h"
-#include "pg/shards/connection.h"
 #include "pg/shards/connection_options.h"
-
-struct Connection
-{
-	slist_node	node;			/* in `connections` */
-	Oid			server;
-	Oid			user;
-	int			number;			/* several shards may be on one server */
-	ConnectionKind kind;
-	PGconn	   *conn;			/* NULL: not connected */
-	char	   *name;			/* of the server */
-	uint32		server_hash;	/* of the catalogue's entries that it was made from */
-	uint32		mapping_hash;
-	bool		is_stale;		/* they were changed */
-	bool		is_busy;		/* a query was sent, and not all of its results are in */
-	int			level;			/* nesting of the transaction that holds it; 0: none */
-	StringInfoData warnings;	/* of the server, not yet reported */
-};
+#include "pg/shards/connection_record.h"
 
 static slist_head connections = SLIST_STATIC_INIT(connections);
 static MemoryContext memory;
@@ -164,92 +138,7 @@ connection_init(void)
 	CacheRegisterSyscacheCallback(USERMAPPINGOID, at_change, (Datum) 0);
 }
 
-/* ---- Errors and warnings -------------------------------------------------------------------- */
-
-/* Reports what the server has sent so far; so outside of libpq's functions, which nothing may leave. */
-static void
-report_warnings(Connection *connection)
-{
-	char	   *text;
-
-	if (connection->warnings.len == 0)
-		return;
-	text = pstrdup(connection->warnings.data);
-	resetStringInfo(&connection->warnings);
-	ereport(WARNING,
-			(errmsg_internal("%s", pchomp(text)),
-			 errcontext("server \"%s\"", connection->name)));
-	pfree(text);
-}
-
-/* Called by libpq. There must be room: an error cannot leave it. */
-static void
-keep_warning(void *arg, const PGresult *result)
-{
-	Connection *connection = arg;
-	const char *text = PQresultErrorField(result, PG_DIAG_MESSAGE_PRIMARY);
-	size_t		length = text == NULL ? 0 : strlen(text);
-
-	if (connection->warnings.len + length + 2 > (size_t) connection->warnings.maxlen)
-		return;
-	appendBinaryStringInfo(&connection->warnings, text, (int) length);
-	appendStringInfoChar(&connection->warnings, '\n');
-}
-
-static void
-report_lost(Connection *connection)
-{
-	char	   *why = pchomp(PQerrorMessage(connection->conn));
-
-	ereport(ERROR,
-			(errcode(ERRCODE_CONNECTION_FAILURE),
-			 errmsg("connection to server \"%s\" is lost", connection->name),
-			 why[0] != '\0' ? errdetail_internal("%s", why) : 0,
-			 errhint("Call the function again: it connects anew.")));
-}
-
-/* Raises the error of a result, which is freed. */
-static void
-report_error(Connection *connection, PGresult *result)
-{
-	const char *state = PQresultErrorField(result, PG_DIAG_SQLSTATE);
-	const char *texts[] = {
-		PQresultErrorField(result, PG_DIAG_MESSAGE_PRIMARY), PQresultErrorField(result, PG_DIAG_MESSAGE_DETAIL),
-		PQresultErrorField(result, PG_DIAG_MESSAGE_HINT)
-	};
-	int			code;
-
-	if (state == NULL || PQstatus(connection->conn) == CONNECTION_BAD)
-	{
-		PQclear(result);
-		report_lost(connection);
-	}
-	code = MAKE_SQLSTATE(state[0], state[1], state[2], state[3], state[4]);
-	for (int i = 0; i < lengthof(texts); i++)
-		texts[i] = texts[i] == NULL ? NULL : pstrdup(texts[i]);
-	PQclear(result);
-	ereport(ERROR,
-			(errcode(code),
-			 errmsg_internal("%s", texts[0] == NULL ? "unknown error" : texts[0]),
-			 texts[1] == NULL ? 0 : errdetail_internal("%s", texts[1]),
-			 texts[2] == NULL ? 0 : errhint("%s", texts[2]),
-			 errcontext("server \"%s\"", connection->name)));
-}
-
 /* ---- Opening -------------------------------------------------------------------------------- */
-
-static void
-wait_for_socket(PGconn *conn, int events)
-{
-	int			happened = WaitLatchOrSocket(MyLatch, WL_LATCH_SET | WL_EXIT_ON_PM_DEATH | events, PQsocket(conn), -1,
-											 PG_WAIT_EXTENSION);
-
-	if (happened & WL_LATCH_SET)
-	{
-		ResetLatch(MyLatch);
-		CHECK_FOR_INTERRUPTS();
-	}
-}
 
 static void
 require_connection(Connection *connection, bool needs_password)
@@ -279,7 +168,7 @@ wait_for_connection(PGconn *conn)
 
 	while (PQstatus(conn) != CONNECTION_BAD && state != PGRES_POLLING_OK && state != PGRES_POLLING_FAILED)
 	{
-		wait_for_socket(conn, state == PGRES_POLLING_READING ? WL_SOCKET_READABLE : WL_SOCKET_WRITEABLE);
+		connection_wait(conn, state == PGRES_POLLING_READING ? WL_SOCKET_READABLE : WL_SOCKET_WRITEABLE);
 		state = PQconnectPoll(conn);
 	}
 }
@@ -306,7 +195,7 @@ begin_connection(Connection *connection, const ConnectionOptions *options)
 		wait_for_connection(connection->conn);
 		require_connection(connection, options->needs_password);
 		if (PQsetnonblocking(connection->conn, 1) != 0)
-			report_lost(connection);
+			connection_report_lost(connection);
 	}
 	PG_CATCH();
 	{
@@ -314,7 +203,7 @@ begin_connection(Connection *connection, const ConnectionOptions *options)
 		PG_RE_THROW();
 	}
 	PG_END_TRY();
-	(void) PQsetNoticeReceiver(connection->conn, keep_warning, connection);
+	(void) PQsetNoticeReceiver(connection->conn, connection_keep_warning, connection);
 }
 
 static void
@@ -438,175 +327,4 @@ void
 connection_let_go(Connection *connection)
 {
 	connection->level = 0;
-}
-
-const char *
-connection_server(const Connection *connection)
-{
-	return connection->name;
-}
-
-bool
-connection_is_busy(const Connection *connection)
-{
-	return connection->is_busy;
-}
-
-/* ---- Queries -------------------------------------------------------------------------------- */
-
-/* Sends a query, or several, to a server that has none to answer. */
-void
-connection_send(Connection *connection, const char *query)
-{
-	int			left;
-
-	if (connection->is_busy)
-		ereport(ERROR,
-				(errcode(ERRCODE_OBJECT_IN_USE),
-				 errmsg("the connection to server \"%s\" is busy with another query of this session",
-						connection->name)));
-	if (PQsendQuery(connection->conn, query) != 1)
-		report_lost(connection);
-	connection->is_busy = true;
-	if (PQsetSingleRowMode(connection->conn) != 1)
-		report_lost(connection);
-	while ((left = PQflush(connection->conn)) > 0)
-	{
-		wait_for_socket(connection->conn, WL_SOCKET_READABLE | WL_SOCKET_WRITEABLE);
-		if (PQconsumeInput(connection->conn) != 1)
-			report_lost(connection);
-	}
-	if (left < 0)
-		report_lost(connection);
-}
-
-/* The next result, or NULL after the last. */
-static PGresult *
-next_result(Connection *connection)
-{
-	PGresult   *result;
-
-	while (PQisBusy(connection->conn))
-	{
-		wait_for_socket(connection->conn, WL_SOCKET_READABLE);
-		if (PQconsumeInput(connection->conn) != 1)
-			report_lost(connection);
-	}
-	report_warnings(connection);
-	result = PQgetResult(connection->conn);
-	if (result == NULL)
-		connection->is_busy = false;
-	return result;
-}
-
-/* After an error the rest comes, too: the connection is free again, and the error is raised. */
-static void
-fail(Connection *connection, PGresult *result)
-{
-	PGresult   *next;
-
-	PG_TRY();
-	{
-		while (PQstatus(connection->conn) != CONNECTION_BAD && (next = next_result(connection)) != NULL)
-			PQclear(next);
-	}
-	PG_CATCH();
-	{
-		PQclear(result);
-		PG_RE_THROW();
-	}
-	PG_END_TRY();
-	report_error(connection, result);
-}
-
-/* The rows of a result; frees it. */
-static uint64
-take_rows(Connection *connection, PGresult *result, AttInMetadata *meta, char **values, MemoryContext rows,
-		  ConnectionRow take, void *context)
-{
-	TupleDesc	columns = meta->tupdesc;
-	uint64		count = (uint64) PQntuples(result);
-
-	PG_TRY();
-	{
-		MemoryContext old = CurrentMemoryContext;
-
-		if (PQnfields(result) != columns->natts)
-			ereport(ERROR,
-					(errcode(ERRCODE_FDW_ERROR),
-					 errmsg("server \"%s\" returned %d columns instead of %d", connection->name, PQnfields(result),
-							columns->natts),
-					 errhint("Let coordinator and servers have the same version of abacus.")));
-		for (int row = 0; row < PQntuples(result); row++)
-		{
-			HeapTuple	tuple;
-
-			MemoryContextSwitchTo(rows);
-			for (int i = 0; i < columns->natts; i++)
-				values[i] = PQgetisnull(result, row, i) ? NULL : PQgetvalue(result, row, i);
-			tuple = BuildTupleFromCStrings(meta, values);
-			MemoryContextSwitchTo(old);
-			take(context, tuple, columns);
-			MemoryContextReset(rows);
-		}
-	}
-	PG_FINALLY();
-	{
-		PQclear(result);
-	}
-	PG_END_TRY();
-	return count;
-}
-
-/*
- * Calls take() for each row of the single query that was sent, whose columns have these types. Returns how
- * many they are.
- */
-uint64
-connection_rows(Connection *connection, TupleDesc columns, ConnectionRow take, void *context)
-{
-	AttInMetadata *meta = TupleDescGetAttInMetadata(columns);
-	char	  **values = palloc(Max(1, columns->natts) * sizeof(char *));
-	MemoryContext rows = AllocSetContextCreate(CurrentMemoryContext, "Abacus rows of a server", ALLOCSET_DEFAULT_SIZES);
-	uint64		count = 0;
-	PGresult   *result;
-
-	while ((result = next_result(connection)) != NULL)
-		switch (PQresultStatus(result))
-		{
-			case PGRES_SINGLE_TUPLE:
-			case PGRES_TUPLES_OK:
-				count += take_rows(connection, result, meta, values, rows, take, context);
-				break;
-			case PGRES_COMMAND_OK:
-				PQclear(result);
-				break;
-			default:
-				fail(connection, result);
-		}
-	MemoryContextDelete(rows);
-	pfree(values);
-	return count;
-}
-
-/* Waits for what was sent, and leaves its rows out. */
-void
-connection_finish(Connection *connection)
-{
-	PGresult   *result;
-
-	if (!connection->is_busy)
-		return;
-	while ((result = next_result(connection)) != NULL)
-		switch (PQresultStatus(result))
-		{
-			case PGRES_SINGLE_TUPLE:
-			case PGRES_TUPLES_OK:
-			case PGRES_COMMAND_OK:
-			case PGRES_EMPTY_QUERY:
-				PQclear(result);
-				break;
-			default:
-				fail(connection, result);
-		}
 }
