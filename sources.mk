@@ -239,6 +239,8 @@ CORE.lab += src/quake/basin.cpp
 CORE.lab += src/quake/quake_points.cpp
 
 CORE.shards += src/shards/exports.cpp
+CORE.shards += src/shards/own_attributes.cpp
+CORE.shards += src/shards/own_pages.cpp
 CORE.shards += src/shards/regions.cpp
 CORE.shards += src/shards/survey.cpp
 
@@ -471,6 +473,7 @@ PG_SOURCES += src/pg/sql/shapes/clipped_outline.c
 PG_SOURCES += src/pg/sql/shards/fn_shard_build.c
 PG_SOURCES += src/pg/sql/shards/fn_shard_exports.c
 PG_SOURCES += src/pg/sql/shards/fn_shard_mesh.c
+PG_SOURCES += src/pg/sql/shards/fn_shard_pages.c
 PG_SOURCES += src/pg/sql/shards/fn_shard_survey.c
 PG_SOURCES += src/pg/sql/shards/fn_shards.c
 PG_SOURCES += src/pg/sql/shares/fn_partition.c

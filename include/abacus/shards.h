@@ -4,6 +4,7 @@
 #ifndef ABACUS_ABACUS_SHARDS_H
 #define ABACUS_ABACUS_SHARDS_H
 
+#include "abacus/facts.h"
 #include "abacus/simplex.h"
 
 #ifdef __cplusplus
@@ -84,6 +85,31 @@ ABACUS_API abacus_status abacus_exports_open(const abacus_host *host, const abac
 ABACUS_API abacus_status abacus_exports_next(abacus_exports *exports, uint32_t *shard,
 											 abacus_vertex *vertex, abacus_error *error);
 ABACUS_API void abacus_exports_close(abacus_exports *exports);
+
+/* ---- A shard's part of the mesh ---------------------------------------------- */
+
+/*
+ * What a shard has of the mesh of all shards, as pages of a kind (simplices or attributes): of the
+ * codes from `first` to `last`, none if last < first. They begin with the page that owns `from`;
+ * those of attributes end with its group. The pages of all shards together are those of one mesh.
+ */
+typedef struct abacus_own_pages abacus_own_pages;
+ABACUS_API abacus_status abacus_own_pages_open(const abacus_host *host, const abacus_facts *facts,
+											   abacus_page_kind kind, uint64_t first, uint64_t last,
+											   const abacus_key *from, abacus_own_pages **pages,
+											   abacus_error *error);
+/* The next one, valid until the next call; ABACUS_END after the last. */
+ABACUS_API abacus_status abacus_own_pages_next(abacus_own_pages *pages, abacus_page *page,
+											   abacus_error *error);
+/* The key at which they end. */
+ABACUS_API abacus_key abacus_own_pages_end(const abacus_own_pages *pages);
+ABACUS_API void abacus_own_pages_close(abacus_own_pages *pages);
+/* The code in the key of a page of this kind: it says which shard has the page. */
+ABACUS_API uint64_t abacus_key_code(abacus_page_kind kind, const abacus_key *key);
+/* How many simplices and ghosts it owns. */
+ABACUS_API abacus_status abacus_own_count(const abacus_host *host, const abacus_facts *facts,
+										  uint64_t first, uint64_t last, uint64_t *simplices,
+										  uint64_t *ghosts, abacus_error *error);
 
 #ifdef __cplusplus
 }

@@ -178,3 +178,34 @@ AS 'MODULE_PATHNAME', 'abacus_sql_shard_count'
 LANGUAGE C STABLE STRICT PARALLEL SAFE COST 100000;
 COMMENT ON FUNCTION abacus_shard_count(regclass, bigint, bigint) IS
     'for the coordinator of a mesh over several servers: how many simplices have codes from the first to the last. Errors: 42809 not a mesh';
+
+CREATE FUNCTION abacus_shard_pages(
+    mesh regclass,
+    kind integer,
+    "first" bigint,
+    "last" bigint,
+    from_code bigint,
+    from_part bigint,
+    bytes integer,
+    OUT code bigint,
+    OUT part bigint,
+    OUT page bytea)
+RETURNS SETOF record
+AS 'MODULE_PATHNAME', 'abacus_sql_shard_pages'
+LANGUAGE C STABLE STRICT PARALLEL SAFE COST 1000 ROWS 10;
+COMMENT ON FUNCTION abacus_shard_pages(regclass, integer, bigint, bigint, bigint, bigint, integer) IS
+    'for the coordinator of a mesh over several servers: what a shard has of the mesh of all shards, as pages of about so many bytes, one at least. Shapes: kind is 0 for simplices and 3 for attributes that are apart; the shard owns the codes from first to last; the first page is the one that owns the key (from_code, from_part). The last row has no page, but the key at which the pages end. Units: bytes. Errors: 22023 another kind or a negative code, 42809 not a mesh';
+
+CREATE FUNCTION abacus_shard_facts(
+    mesh regclass,
+    "first" bigint,
+    "last" bigint,
+    OUT simplices bigint,
+    OUT ghosts bigint,
+    OUT vertices bigint,
+    OUT stamp bigint)
+RETURNS record
+AS 'MODULE_PATHNAME', 'abacus_sql_shard_facts'
+LANGUAGE C STABLE STRICT PARALLEL SAFE COST 10000;
+COMMENT ON FUNCTION abacus_shard_facts(regclass, bigint, bigint) IS
+    'for the coordinator of a mesh over several servers: what a shard owns, counted. Shapes: simplices and ghosts (facets of the hull) have codes from first to last; vertices are those of the mesh of the shard, with those that others own; stamp is that of its state. Errors: 42809 not a mesh';

@@ -3,6 +3,8 @@
 #include "keys/domain_of.hpp"
 #include "shards/exports.hpp"
 #include "shards/given_box.hpp"
+#include "shards/own_attributes.hpp"
+#include "shards/own_pages.hpp"
 #include "shards/survey.hpp"
 
 #include "capi/dimension.hpp"
@@ -158,3 +160,81 @@ abacus_status abacus_exports_next(abacus_exports *exports, uint32_t *shard, abac
 }
 
 void abacus_exports_close(abacus_exports *exports) { abacus::destroy_handle(exports); }
+
+namespace {
+
+/// Both kinds; pages of one are asked for.
+template <int D> struct OwnOf {
+    OwnOf(const abacus::Host &host, const abacus_facts &facts, std::uint64_t first,
+          std::uint64_t last)
+        : simplices(host, facts, first, last), attributes(host, facts, first, last) {}
+
+    abacus::OwnPages<D> simplices;
+    abacus::OwnAttributes<D> attributes;
+};
+
+} // namespace
+
+struct abacus_own_pages {
+    abacus_own_pages(const abacus_host *table, const abacus_facts &facts, abacus_page_kind asked,
+                     std::uint64_t first, std::uint64_t last, const abacus_key &from)
+        : host(*table), kind(asked), own(host, facts, first, last) {
+        if (kind != ABACUS_SIMPLEX_PAGES && kind != ABACUS_ATTRIBUTE_PAGES)
+            throw abacus::Error(ABACUS_ERROR_ARGUMENT, "a shard has no own pages of this kind");
+        own.visit([&](auto &opened) {
+            if (kind == ABACUS_SIMPLEX_PAGES)
+                opened.simplices.seek(from);
+            else
+                opened.attributes.seek(from);
+        });
+    }
+
+    const abacus::Host host;
+    const abacus_page_kind kind;
+    abacus::ByDimension<OwnOf> own;
+};
+
+abacus_status abacus_own_pages_open(const abacus_host *host, const abacus_facts *facts,
+                                    abacus_page_kind kind, uint64_t first, uint64_t last,
+                                    const abacus_key *from, abacus_own_pages **pages,
+                                    abacus_error *error) {
+    return abacus::guard(error, [&] {
+        *pages = abacus::create_handle<abacus_own_pages>(host, *facts, kind, first, last, *from);
+        return ABACUS_OK;
+    });
+}
+
+abacus_status abacus_own_pages_next(abacus_own_pages *pages, abacus_page *page,
+                                    abacus_error *error) {
+    return abacus::guard(error, [&] {
+        return pages->own.visit([&](auto &opened) {
+            const bool any = pages->kind == ABACUS_SIMPLEX_PAGES ? opened.simplices.next(*page)
+                                                                 : opened.attributes.next(*page);
+            return any ? ABACUS_OK : ABACUS_END;
+        });
+    });
+}
+
+abacus_key abacus_own_pages_end(const abacus_own_pages *pages) {
+    return pages->own.visit([&](const auto &opened) {
+        return pages->kind == ABACUS_SIMPLEX_PAGES ? opened.simplices.end()
+                                                   : opened.attributes.end();
+    });
+}
+
+void abacus_own_pages_close(abacus_own_pages *pages) { abacus::destroy_handle(pages); }
+
+uint64_t abacus_key_code(abacus_page_kind kind, const abacus_key *key) {
+    return kind == ABACUS_ATTRIBUTE_PAGES ? abacus::code_of(*key) : key->code;
+}
+
+abacus_status abacus_own_count(const abacus_host *host, const abacus_facts *facts, uint64_t first,
+                               uint64_t last, uint64_t *simplices, uint64_t *ghosts,
+                               abacus_error *error) {
+    return abacus::guard(error, [&] {
+        const abacus::Host own(*host);
+        abacus::ByDimension<abacus::OwnPages> pages(own, *facts, first, last);
+        pages.visit([&](auto &opened) { opened.count(*simplices, *ghosts); });
+        return ABACUS_OK;
+    });
+}

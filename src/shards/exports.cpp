@@ -17,8 +17,8 @@ Exports<D>::Exports(const Host &host, const abacus_facts &facts,
       attributes_(facts.columns.attributes), has_simplices_(facts.census.simplices > 0),
       pages_(host, facts),
       waiting_(host, facts.columns.attributes, facts.census.inserted, facts.census.staged),
-      next_receiver_(regions_.shards()), values_(host, facts), of_vertex_(host), owners_(host),
-      to_send_(host) {
+      next_receiver_(regions_.shards()), values_(host, facts), of_vertex_(host), links_(host),
+      slots_(host), border_(host), on_border_(host), owners_(host), to_send_(host) {
     of_vertex_.resize(attributes_);
 }
 
@@ -53,6 +53,7 @@ template <int D> void Exports<D>::collect() {
     to_send_.clear();
     at_ = 0;
     for (int simplex = 0; simplex < page.simplices(); ++simplex) collect(simplex);
+    collect_beyond();
     std::sort(to_send_.begin(), to_send_.end());
     to_send_.resize(
         static_cast<std::size_t>(std::unique(to_send_.begin(), to_send_.end()) - to_send_.begin()));
@@ -76,6 +77,51 @@ template <int D> void Exports<D>::collect(int simplex) {
         if (met == shard_ || met == last) return;
         send(simplex, last = met);
     });
+}
+
+/// Of the greatest of its vertices, which has the greatest owner.
+template <int D> std::uint32_t Exports<D>::owner_of(int simplex) const {
+    const PageView<D> &page = pages_.page();
+    std::uint32_t greatest = 0;
+    for (int i = 0; i < D + !page.is_ghost(simplex); ++i)
+        greatest = std::max(greatest, owners_[static_cast<std::size_t>(page.corner(simplex, i))]);
+    return greatest;
+}
+
+/// Simplices whose neighbours other shards own. Most pages have none.
+template <int D> void Exports<D>::collect_beyond() {
+    const PageView<D> &page = pages_.page();
+    const auto own = [&](std::uint32_t owner) { return owner == shard_; };
+    bool is_inside = std::all_of(owners_.begin(), owners_.end(), own);
+    const auto link_owner = [&](int link) {
+        const int v = page.link_vertex(link);
+        return v < page.vertices() ? owners_[static_cast<std::size_t>(v)]
+                                   : regions_.owner(page.foreign_code(v));
+    };
+    for (int i = 0; is_inside && i < page.links(); ++i) is_inside = own(link_owner(i));
+    if (is_inside || std::none_of(owners_.begin(), owners_.end(), own)) return;
+    slots_.resize(static_cast<std::size_t>(page.simplices()));
+    links_.connect(page, slots_.data(), Handle{0}, true, border_, on_border_);
+    for (int s = 0; s < page.simplices(); ++s)
+        for (int i = 0; i <= D; ++i)
+            if (const Link link = slots_[static_cast<std::size_t>(s)].link[i]; link != unset)
+                send_across(s, i, owner_of(static_cast<int>(to_number(link_simplex(link)))));
+    for (int i = 0; i < page.links(); ++i) {
+        const Link facet = border_[static_cast<std::size_t>(i)];
+        send_across(static_cast<int>(to_number(link_simplex(facet))), link_facet(facet),
+                    link_owner(i));
+    }
+}
+
+/// The owner of the simplex beyond a facet gets the corners, if the shard owns one of the facet.
+template <int D> void Exports<D>::send_across(int simplex, int facet, std::uint32_t beyond) {
+    const PageView<D> &page = pages_.page();
+    if (beyond == shard_) return;
+    bool has_own = false;
+    for (int i = 0; i < D + !page.is_ghost(simplex); ++i)
+        has_own |=
+            i != facet && owners_[static_cast<std::size_t>(page.corner(simplex, i))] == shard_;
+    if (has_own) send(simplex, beyond);
 }
 
 /// All corners but those that the receiver owns.

@@ -6,13 +6,16 @@
 //
 //   1. all corners go to the shards that own one of them, and
 //   2. if the shard itself owns a corner, they go to each shard whose region the circumsphere may
-//      meet; a ghost's is its half-space.
+//      meet; a ghost's is its half-space, and
+//   3. if it owns a corner of a facet, they go to the shard that owns the simplex beyond.
 //
 // A shard without simplices sends its own points to all others. A shard sends no vertex to its
 // owner. When no shard has anything to send that the receiver does not have, each simplex with a
-// corner of the shard's own belongs to the triangulation of all points.
+// corner of the shard's own belongs to the triangulation of all points, and so do all neighbours
+// of a simplex that the shard owns.
 #pragma once
 
+#include "mesh/inner_links.hpp"
 #include "points/vertex_reader.hpp"
 #include "query/pages/page_scan.hpp"
 #include "query/pages/vertex_values.hpp"
@@ -37,7 +40,10 @@ public:
 private:
     void collect();
     void collect(int simplex);
+    void collect_beyond();
+    std::uint32_t owner_of(int simplex) const;
     void send(int simplex, std::uint32_t to);
+    void send_across(int simplex, int facet, std::uint32_t beyond);
     bool next_waiting(std::uint32_t &to, abacus_vertex &vertex);
 
     const std::uint32_t shard_;
@@ -50,6 +56,10 @@ private:
     std::uint32_t next_receiver_; // of the point that waits
     VertexValues<D> values_;
     Arena<double> of_vertex_;      // its attributes
+    InnerLinks<D> links_;          // of a page across a border
+    Arena<Simplex<D>> slots_;      //
+    Arena<Link> border_;           //
+    Arena<bool> on_border_;        //
     Arena<std::uint32_t> owners_;  // of the page's vertices
     Arena<std::uint64_t> to_send_; // from the page: shards, and vertices by number
     std::size_t at_ = 0;           // in it

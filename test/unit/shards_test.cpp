@@ -1,5 +1,6 @@
 // Several shards, each with a mesh of its own, exchange vertices until none is missing: their
 // simplices are those of one mesh of all points.
+#include "attributes/attribute_key.hpp"
 #include "geometry/conflict.hpp"
 #include "shards/regions.hpp"
 #include "support/oracle.hpp"
@@ -54,18 +55,21 @@ protected:
         int rounds = 0;
     };
 
-    static Inputs number(const std::vector<Point<D>> &points) {
+    Inputs number(const std::vector<Point<D>> &points) const {
         Inputs inputs;
         for (const Point<D> &p : points) {
             const auto id = static_cast<std::int64_t>(inputs.size());
-            inputs.push_back({id, p, {static_cast<double>(id) / 3}});
+            std::vector<double> values;
+            for (int i = 0; i < attributes; ++i)
+                values.push_back(static_cast<double>(id) / (3 + i));
+            inputs.push_back({id, p, values});
         }
         return inputs;
     }
 
     /// A survey of each part of the points, and the plan that follows from them.
     void plan(const Inputs &inputs, std::uint32_t shards) {
-        MeshOf<D> host(1);
+        MeshOf<D> host(attributes);
         abacus_survey *all = nullptr;
         ASSERT_EQ(abacus_survey_open(host.host.table(), &host.header.facts, &all, &host.error),
                   ABACUS_OK);
@@ -78,7 +82,7 @@ protected:
                 std::vector<std::uint64_t> record{static_cast<std::uint64_t>(inputs[i].id)};
                 for (const double x : inputs[i].point)
                     record.push_back(std::bit_cast<std::uint64_t>(x));
-                record.push_back(0);
+                record.resize(record.size() + static_cast<std::size_t>(attributes));
                 ASSERT_EQ(abacus_survey_add(survey, record.data(), 1, &host.error), ABACUS_OK);
             }
             std::uint64_t points;
@@ -138,7 +142,8 @@ protected:
             EXPECT_NE(to, from);
             EXPECT_NE(owner(code(p)), to);
             if (!shards[to].guests.insert(p).second) continue;
-            shards[to].arriving.push_back({vertex.id, p, {vertex.attributes[0]}});
+            shards[to].arriving.push_back(
+                {vertex.id, p, {vertex.attributes, vertex.attributes + attributes}});
             ++sent;
         }
         EXPECT_EQ(status, ABACUS_END) << mesh.error.message << " " << mesh.error.detail;
@@ -150,7 +155,7 @@ protected:
         plan(inputs, count);
         std::vector<Shard> shards(count);
         for (Shard &shard : shards) {
-            shard.mesh = std::make_unique<MeshOf<D>>(1);
+            shard.mesh = std::make_unique<MeshOf<D>>(attributes);
             shard.mesh->header.facts.form = form;
         }
         for (const InputOf<D> &input : inputs)
@@ -171,11 +176,85 @@ protected:
             EXPECT_EQ(shards[i].mesh->host.bytes, 0u);
         }
         std::sort(outcome.rows.begin(), outcome.rows.end());
+        if (shards[0].mesh->header.facts.census.simplices > 0 || !outcome.rows.empty())
+            expect_pages(shards, outcome.rows);
         return outcome;
+    }
+
+    std::uint64_t first(std::uint32_t shard) const { return shard == 0 ? 0 : borders[shard - 1]; }
+    /// As PostgreSQL's greatest bigint of the last one.
+    std::uint64_t last(std::uint32_t shard) const {
+        return shard < borders.size() ? borders[shard] - 1 : key_word_end - 1;
+    }
+    /// Calls put() with each page of a kind that the shard has of the mesh of all, from a key on.
+    template <class Put>
+    void each_own_page(Shard &shard, std::uint32_t number, abacus_page_kind kind, const Key &from,
+                       Put put) {
+        MeshOf<D> &mesh = *shard.mesh;
+        if (last(number) + 1 == first(number)) return;
+        abacus_own_pages *pages = nullptr;
+        ASSERT_EQ(abacus_own_pages_open(mesh.host.table(), &mesh.header.facts, kind, first(number),
+                                        last(number), &from, &pages, &mesh.error),
+                  ABACUS_OK)
+            << mesh.error.message;
+        abacus_page page{};
+        abacus_status status;
+        while ((status = abacus_own_pages_next(pages, &page, &mesh.error)) == ABACUS_OK) put(page);
+        EXPECT_EQ(status, ABACUS_END) << mesh.error.message << " " << mesh.error.detail;
+        abacus_own_pages_close(pages);
+    }
+    /// What shards have of the mesh of all is a sound mesh, with the same simplices.
+    void expect_pages(std::vector<Shard> &shards, const std::vector<Row<D>> &expected) {
+        MeshOf<D> all(attributes);
+        all.header.facts.form = form;
+        abacus_census &census = all.header.facts.census;
+        const auto keep = [&](abacus_page_kind kind) {
+            return [&all, kind](abacus_page page) {
+                page.location = 0;
+                EXPECT_EQ(all.host.table()->put(all.host.table()->context, kind, &page),
+                          ABACUS_HOST_OK);
+            };
+        };
+        for (std::uint32_t i = 0; i < shards.size(); ++i) {
+            MeshOf<D> &mesh = *shards[i].mesh;
+            std::uint64_t simplices, ghosts;
+            if (last(i) + 1 != first(i)) {
+                ASSERT_EQ(abacus_own_count(mesh.host.table(), &mesh.header.facts, first(i), last(i),
+                                           &simplices, &ghosts, &mesh.error),
+                          ABACUS_OK)
+                    << mesh.error.message << mesh.error.detail;
+                census.simplices += simplices;
+                census.ghosts += ghosts;
+            }
+            if (mesh.header.facts.census.simplices > 0)
+                census.vertices += mesh.header.facts.census.vertices - shards[i].guests.size();
+            each_own_page(shards[i], i, ABACUS_SIMPLEX_PAGES, {first(i), 0},
+                          keep(ABACUS_SIMPLEX_PAGES));
+            const unsigned groups =
+                mesh.header.facts.columns.apart == 0 ? 0 : (attributes + 31) / 32;
+            for (unsigned group = 0; group < groups; ++group)
+                each_own_page(shards[i], i, ABACUS_ATTRIBUTE_PAGES, group_begin(group),
+                              keep(ABACUS_ATTRIBUTE_PAGES));
+        }
+        EXPECT_EQ(all.check(), std::vector<std::string>{});
+        std::vector<Row<D>> found = rows(all);
+        std::sort(found.begin(), found.end());
+        EXPECT_TRUE(found == expected) << found.size() << " simplices, not " << expected.size();
+        for (const auto &[key, stored] : all.host.pages) { // each page is found by its key alone
+            const std::uint32_t i = owner(key.code);
+            int n = 0;
+            each_own_page(shards[i], i, ABACUS_SIMPLEX_PAGES, key, [&](const abacus_page &page) {
+                if (n++ > 0) return;
+                EXPECT_TRUE(page.key <= key);
+                EXPECT_TRUE(!(page.key == key) || page.size == stored.size);
+            });
+            EXPECT_GT(n, 0);
+            if (all.host.pages.size() > 20) break;
+        }
     }
     void expect_same(const std::vector<Point<D>> &points) {
         const Inputs inputs = number(points);
-        MeshOf<D> alone(1);
+        MeshOf<D> alone(attributes);
         ASSERT_EQ(alone.insert(inputs), ABACUS_OK);
         std::vector<Row<D>> expected = rows(alone);
         std::sort(expected.begin(), expected.end());
@@ -189,6 +268,7 @@ protected:
         }
     }
 
+    int attributes = 1;
     abacus_form form{};
     abacus_box extent{};
     std::vector<std::uint64_t> borders;
@@ -253,6 +333,15 @@ TYPED_TEST(Shards, MakeItOfPointsInOneShardAndOfOutliers) {
     points.back()[0] = 1e300; // a domain that leaves it out
     points.push_back({});
     points.back()[D - 1] = -1e300;
+    this->expect_same(points);
+}
+
+TYPED_TEST(Shards, HaveAttributesApart) {
+    constexpr int D = TypeParam::value;
+    this->attributes = 40; // two groups
+    std::vector<Point<D>> points(D == 2 ? 3000 : 1200);
+    for (auto &p : points)
+        for (double &x : p) x = unit(this->random);
     this->expect_same(points);
 }
 
