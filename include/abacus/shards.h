@@ -84,6 +84,9 @@ ABACUS_API abacus_status abacus_exports_open(const abacus_host *host, const abac
  */
 ABACUS_API abacus_status abacus_exports_next(abacus_exports *exports, uint32_t *shard,
 											 abacus_vertex *vertex, abacus_error *error);
+/* In place of all of them: how many simplices of the mesh the shard owns. */
+ABACUS_API abacus_status abacus_exports_count(abacus_exports *exports, uint64_t *owned,
+											  abacus_error *error);
 ABACUS_API void abacus_exports_close(abacus_exports *exports);
 
 /* ---- A shard's part of the mesh ---------------------------------------------- */

@@ -18,7 +18,8 @@ CREATE TYPE abacus_shard_generation AS (
     sent bigint,
     simplices bigint,
     names_given boolean,
-    domain_given boolean);
+    domain_given boolean,
+    srid integer);
 COMMENT ON TYPE abacus_shard_generation IS
     'row of the coordinator''s table of a mesh over several servers: what one build has made of it; readers see the newest row whose phase is published';
 COMMENT ON COLUMN abacus_shard_generation.generation IS 'number of the build, from 0';
@@ -39,6 +40,7 @@ COMMENT ON COLUMN abacus_shard_generation.sent IS 'vertices that shards have sen
 COMMENT ON COLUMN abacus_shard_generation.simplices IS 'simplices of the mesh';
 COMMENT ON COLUMN abacus_shard_generation.names_given IS 'whether the names were given when the mesh was created';
 COMMENT ON COLUMN abacus_shard_generation.domain_given IS 'whether the domain was given when the mesh was created';
+COMMENT ON COLUMN abacus_shard_generation.srid IS 'spatial reference system of the points; 0: not known';
 
 CREATE FUNCTION abacus_shard_create(
     mesh text,
@@ -63,7 +65,7 @@ CREATE PROCEDURE abacus_shard_build(mesh regclass, queries text[])
 AS 'MODULE_PATHNAME', 'abacus_sql_shard_build_each'
 LANGUAGE C;
 COMMENT ON PROCEDURE abacus_shard_build(regclass, text[]) IS
-    'the same with a query for each server, which is run there. Of equal points the first is the vertex, in the order of the queries. Shapes: as many queries as servers, each as above, with coordinates as columns; each is run three times in one snapshot. Errors: as above; 22023 another number of queries, 42804 other columns';
+    'the same with a query for each server, which is run there. Of equal points the first is the vertex, in the order of the queries. Shapes: as many queries as servers, each as above, with the same columns; each is run once. Errors: as above; 22023 another number of queries or another SRID, 42804 other columns';
 
 CREATE FUNCTION abacus_shard_drop(mesh regclass)
 RETURNS void
@@ -95,18 +97,44 @@ COMMENT ON FUNCTION abacus_shards(regclass) IS
 CREATE FUNCTION abacus_shard_survey(
     query text,
     dimension integer,
+    own integer,
     lower double precision[] DEFAULT NULL,
     upper double precision[] DEFAULT NULL,
     OUT points bigint,
     OUT attributes text[],
     OUT "least" double precision[],
     OUT "greatest" double precision[],
+    OUT srid integer,
     OUT sample double precision[])
 RETURNS record
 AS 'MODULE_PATHNAME', 'abacus_sql_shard_survey'
 LANGUAGE C VOLATILE PARALLEL UNSAFE;
-COMMENT ON FUNCTION abacus_shard_survey(text, integer, double precision[], double precision[]) IS
-    'for the coordinator of a mesh over several servers: how many points a query has, in which box, the names of their attributes, and a sample. Shapes: the query as of abacus_stage; sample has the coordinates of its points, one after the other. Units: those of the coordinates. Errors: those of abacus_stage';
+COMMENT ON FUNCTION abacus_shard_survey(text, integer, integer, double precision[], double precision[]) IS
+    'for the coordinator of a mesh over several servers: how many points a query has, in which box, the names of their attributes, their SRID, and a sample. The rows are kept in a temporary table of the coordinator, abacus_points. Shapes: the query as of abacus_stage; sample has the coordinates of its points, one after the other. Units: those of the coordinates. Errors: those of abacus_stage; 42P01 no such table';
+
+CREATE FUNCTION abacus_shard_split(
+    attributes integer,
+    lower double precision[],
+    upper double precision[],
+    borders bigint[],
+    own integer)
+RETURNS bigint
+AS 'MODULE_PATHNAME', 'abacus_sql_shard_split'
+LANGUAGE C VOLATILE STRICT PARALLEL UNSAFE;
+COMMENT ON FUNCTION abacus_shard_split(integer, double precision[], double precision[], bigint[], integer) IS
+    'for the coordinator of a mesh over several servers: sorts out the kept points that other shards own, and returns how many these are. Shapes: attributes is their number; lower and upper are {x, y}, in space {x, y, z}; borders are codes that ascend. Units: those of the coordinates. Errors: 42P01 no points are kept, 22023 a bad array, XX001 bytes that cannot be points';
+
+CREATE FUNCTION abacus_shard_stage(
+    mesh regclass,
+    borders bigint[],
+    own integer,
+    "least" double precision[],
+    "greatest" double precision[])
+RETURNS bigint
+AS 'MODULE_PATHNAME', 'abacus_sql_shard_stage'
+LANGUAGE C VOLATILE STRICT PARALLEL UNSAFE;
+COMMENT ON FUNCTION abacus_shard_stage(regclass, bigint[], integer, double precision[], double precision[]) IS
+    'for the coordinator of a mesh over several servers: stages those of the kept points that a shard owns, in the order of the queries, and returns how many these are. Shapes: borders are codes that ascend; least and greatest are corners of a box around all points. Units: those of the coordinates. Errors: 42P01 no points are kept, 22023 a point outside that box, XX001 bytes that cannot be points, or a point of another shard';
 
 CREATE FUNCTION abacus_shard_owner(
     lower double precision[],
@@ -124,11 +152,12 @@ CREATE FUNCTION abacus_shard_begin(
     dimension integer,
     attributes text[],
     lower double precision[],
-    upper double precision[])
+    upper double precision[],
+    srid integer DEFAULT 0)
 RETURNS regclass
 AS 'MODULE_PATHNAME', 'abacus_sql_shard_begin'
 LANGUAGE C VOLATILE PARALLEL UNSAFE;
-COMMENT ON FUNCTION abacus_shard_begin(text, integer, text[], double precision[], double precision[]) IS
+COMMENT ON FUNCTION abacus_shard_begin(text, integer, text[], double precision[], double precision[], integer) IS
     'for the coordinator of a mesh over several servers: makes the mesh of a shard, as abacus_create does, over the domain of all shards. It may be flat. Shapes: lower and upper are {x, y}, in space {x, y, z}. Units: those of the coordinates. Errors: those of abacus_create';
 
 CREATE FUNCTION abacus_shard_take(mesh regclass, query text)
@@ -172,12 +201,17 @@ LANGUAGE C STABLE STRICT PARALLEL SAFE COST 1000 ROWS 1000;
 COMMENT ON FUNCTION abacus_shard_settled(regclass, bigint, bigint, bigint[], double precision[]) IS
     'for the coordinator of a mesh over several servers: those of the places whose simplices a shard knows as they are in the whole mesh. Shapes: places has the coordinates of one place after the other. Units: those of the coordinates. Errors: 22023 arrays of other lengths';
 
-CREATE FUNCTION abacus_shard_count(mesh regclass, "first" bigint, "last" bigint)
+CREATE FUNCTION abacus_shard_count(
+    mesh regclass,
+    borders bigint[],
+    own integer,
+    "least" double precision[],
+    "greatest" double precision[])
 RETURNS bigint
 AS 'MODULE_PATHNAME', 'abacus_sql_shard_count'
-LANGUAGE C STABLE STRICT PARALLEL SAFE COST 100000;
-COMMENT ON FUNCTION abacus_shard_count(regclass, bigint, bigint) IS
-    'for the coordinator of a mesh over several servers: how many simplices have codes from the first to the last. Errors: 42809 not a mesh';
+LANGUAGE C STABLE STRICT PARALLEL SAFE COST 10000;
+COMMENT ON FUNCTION abacus_shard_count(regclass, bigint[], integer, double precision[], double precision[]) IS
+    'for the coordinator of a mesh over several servers: how many simplices a shard owns. Shapes: borders are codes that ascend; least and greatest are corners of a box around all points. Units: those of the coordinates. Errors: 22023 a point outside that box, or bad borders';
 
 CREATE FUNCTION abacus_shard_pages(
     mesh regclass,

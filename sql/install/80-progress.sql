@@ -40,6 +40,9 @@ SELECT pid,
            WHEN 7 THEN 'deleting'
            WHEN 8 THEN 'locating'
            WHEN 9 THEN 'scanning'
+           WHEN 20 THEN 'spreading'
+           WHEN 21 THEN 'triangulating'
+           WHEN 22 THEN 'exchanging'
        END AS phase,
        done,
        total,
@@ -47,17 +50,18 @@ SELECT pid,
        make_interval(secs => ((total - done)::numeric * phase_seconds / nullif(done, 0)::numeric)::double precision)
            AS time_left,
        make_interval(secs => seconds::double precision) AS elapsed,
-       pages_read,
-       pages_written,
+       CASE WHEN phase < 20 THEN pages_read END AS pages_read,
+       CASE WHEN phase < 20 THEN pages_written END AS pages_written,
        threads,
        busy,
-       session_busy
+       session_busy,
+       CASE WHEN phase = 22 THEN pages_read END AS rounds
 FROM build;
 COMMENT ON VIEW abacus_progress IS 'live figures of the builds, changes, loads, checks, locations of many places and surfaces that run in any session';
 COMMENT ON COLUMN abacus_progress.pid IS 'process id of the session';
 COMMENT ON COLUMN abacus_progress.mesh IS 'the mesh; a number while its creation is not committed, NULL in another database';
-COMMENT ON COLUMN abacus_progress.phase IS 'starting, reading, sorting, staging, inserting, deleting, flushing, checking, locating or scanning';
-COMMENT ON COLUMN abacus_progress.done IS 'points or places (checking: pages, each of which is read twice; scanning: simplices; of octrees leaves) done in this phase';
+COMMENT ON COLUMN abacus_progress.phase IS 'starting, reading, sorting, staging, inserting, deleting, flushing, checking, locating or scanning; of a mesh over several servers spreading, triangulating or exchanging';
+COMMENT ON COLUMN abacus_progress.done IS 'points or places (checking: pages, each of which is read twice; scanning: simplices; of octrees leaves; triangulating: servers; exchanging: vertices sent) done in this phase';
 COMMENT ON COLUMN abacus_progress.total IS 'of how many; NULL if not known';
 COMMENT ON COLUMN abacus_progress.per_second IS 'mean rate in this phase';
 COMMENT ON COLUMN abacus_progress.time_left IS 'in this phase, at that rate';
@@ -67,4 +71,5 @@ COMMENT ON COLUMN abacus_progress.pages_written IS 'pages written';
 COMMENT ON COLUMN abacus_progress.threads IS 'threads that compute at this moment: 1 is the session''s; several work for it, and it serves them';
 COMMENT ON COLUMN abacus_progress.busy IS 'processors that all threads together have kept busy since the function began, on average';
 COMMENT ON COLUMN abacus_progress.session_busy IS 'what the session''s own thread has taken of one processor since then: near 1, it is what the others wait for';
+COMMENT ON COLUMN abacus_progress.rounds IS 'of the exchange between several servers, which one it is; NULL in other phases';
 GRANT SELECT ON abacus_progress TO PUBLIC;

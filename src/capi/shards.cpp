@@ -159,6 +159,13 @@ abacus_status abacus_exports_next(abacus_exports *exports, uint32_t *shard, abac
     });
 }
 
+abacus_status abacus_exports_count(abacus_exports *exports, uint64_t *owned, abacus_error *error) {
+    return abacus::guard(error, [&] {
+        exports->exports.visit([&](auto &opened) { *owned = opened.count_owned(); });
+        return ABACUS_OK;
+    });
+}
+
 void abacus_exports_close(abacus_exports *exports) { abacus::destroy_handle(exports); }
 
 namespace {

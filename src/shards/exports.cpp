@@ -14,23 +14,23 @@ Exports<D>::Exports(const Host &host, const abacus_facts &facts,
                     const abacus_box &extent)
     : shard_(shard), extent_(given_box<D>(extent)),
       regions_(host, domain_of<D>(facts.form), borders, extent_),
-      attributes_(facts.columns.attributes), has_simplices_(facts.census.simplices > 0),
-      pages_(host, facts),
+      attributes_(facts.columns.attributes), simplices_(facts.census.simplices),
       waiting_(host, facts.columns.attributes, facts.census.inserted, facts.census.staged),
       next_receiver_(regions_.shards()), values_(host, facts), of_vertex_(host), links_(host),
       slots_(host), border_(host), on_border_(host), owners_(host), to_send_(host) {
     of_vertex_.resize(attributes_);
+    if (simplices_ > 0) pages_.emplace(host, facts, regions_, shard);
 }
 
 template <int D> bool Exports<D>::next(std::uint32_t &to, abacus_vertex &vertex) {
-    if (!has_simplices_) return next_waiting(to, vertex);
+    if (!pages_) return next_waiting(to, vertex);
     while (at_ == to_send_.size()) {
-        if (!pages_.advance()) return false;
+        if (!advance()) return false;
         collect();
     }
     const std::uint64_t pair = to_send_[at_++];
     const int v = static_cast<int>(pair & ~std::uint32_t{0});
-    const PageView<D> &page = pages_.page();
+    const PageView<D> &page = pages_->page();
     to = static_cast<std::uint32_t>(pair >> 32);
     vertex = {};
     vertex.id = vertex.vertex = page.id(v);
@@ -40,9 +40,9 @@ template <int D> bool Exports<D>::next(std::uint32_t &to, abacus_vertex &vertex)
     return true;
 }
 
-/// Finds what the page's simplices say, each vertex once for a shard.
-template <int D> void Exports<D>::collect() {
-    const PageView<D> &page = pages_.page();
+template <int D> bool Exports<D>::advance() {
+    if (!pages_->advance()) return false;
+    const PageView<D> &page = pages_->page();
     owners_.resize(static_cast<std::size_t>(page.vertices()));
     for (int v = 0; v < page.vertices(); ++v) {
         if (!extent_.contains(page.point(v)))
@@ -50,9 +50,24 @@ template <int D> void Exports<D>::collect() {
                         "Its id is " + std::to_string(page.id(v)) + ".", {});
         owners_[static_cast<std::size_t>(v)] = regions_.owner(page.point(v));
     }
+    return true;
+}
+
+template <int D> std::uint64_t Exports<D>::count_owned() {
+    std::uint64_t others = 0; // simplices: each has a corner of another shard, so it is near
+    while (pages_ && advance()) {
+        for (int simplex = 0; simplex < pages_->page().simplices(); ++simplex)
+            others += !pages_->page().is_ghost(simplex) && owner_of(simplex) != shard_;
+    }
+    return simplices_ - others;
+}
+
+/// Finds what the page's simplices say, each vertex once for a shard.
+template <int D> void Exports<D>::collect() {
     to_send_.clear();
     at_ = 0;
-    for (int simplex = 0; simplex < page.simplices(); ++simplex) collect(simplex);
+    for (int simplex = 0; simplex < pages_->page().simplices(); ++simplex)
+        if (pages_->is_near(simplex)) collect(simplex);
     collect_beyond();
     std::sort(to_send_.begin(), to_send_.end());
     to_send_.resize(
@@ -60,7 +75,7 @@ template <int D> void Exports<D>::collect() {
 }
 
 template <int D> void Exports<D>::collect(int simplex) {
-    const PageView<D> &page = pages_.page();
+    const PageView<D> &page = pages_->page();
     const bool is_ghost = page.is_ghost(simplex);
     Corners<D> corners{};
     bool has_own = false;
@@ -81,7 +96,7 @@ template <int D> void Exports<D>::collect(int simplex) {
 
 /// Of the greatest of its vertices, which has the greatest owner.
 template <int D> std::uint32_t Exports<D>::owner_of(int simplex) const {
-    const PageView<D> &page = pages_.page();
+    const PageView<D> &page = pages_->page();
     std::uint32_t greatest = 0;
     for (int i = 0; i < D + !page.is_ghost(simplex); ++i)
         greatest = std::max(greatest, owners_[static_cast<std::size_t>(page.corner(simplex, i))]);
@@ -90,7 +105,7 @@ template <int D> std::uint32_t Exports<D>::owner_of(int simplex) const {
 
 /// Simplices whose neighbours other shards own. Most pages have none.
 template <int D> void Exports<D>::collect_beyond() {
-    const PageView<D> &page = pages_.page();
+    const PageView<D> &page = pages_->page();
     const auto own = [&](std::uint32_t owner) { return owner == shard_; };
     bool is_inside = std::all_of(owners_.begin(), owners_.end(), own);
     const auto link_owner = [&](int link) {
@@ -115,7 +130,7 @@ template <int D> void Exports<D>::collect_beyond() {
 
 /// The owner of the simplex beyond a facet gets the corners, if the shard owns one of the facet.
 template <int D> void Exports<D>::send_across(int simplex, int facet, std::uint32_t beyond) {
-    const PageView<D> &page = pages_.page();
+    const PageView<D> &page = pages_->page();
     if (beyond == shard_) return;
     bool has_own = false;
     for (int i = 0; i < D + !page.is_ghost(simplex); ++i)
@@ -126,7 +141,7 @@ template <int D> void Exports<D>::send_across(int simplex, int facet, std::uint3
 
 /// All corners but those that the receiver owns.
 template <int D> void Exports<D>::send(int simplex, std::uint32_t to) {
-    const PageView<D> &page = pages_.page();
+    const PageView<D> &page = pages_->page();
     for (int i = 0; i < D + !page.is_ghost(simplex); ++i) {
         const auto v = static_cast<std::uint32_t>(page.corner(simplex, i));
         if (owners_[v] != to) to_send_.push_back(std::uint64_t{to} << 32 | v);

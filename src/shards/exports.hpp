@@ -13,13 +13,15 @@
 // owner. When no shard has anything to send that the receiver does not have, each simplex with a
 // corner of the shard's own belongs to the triangulation of all points, and so do all neighbours
 // of a simplex that the shard owns.
+//
+// All these simplices lie near the regions of other shards, or beside such a one
+// (border_pages.hpp): only their pages are read.
 #pragma once
 
 #include "mesh/inner_links.hpp"
 #include "points/vertex_reader.hpp"
-#include "query/pages/page_scan.hpp"
 #include "query/pages/vertex_values.hpp"
-#include "shards/regions.hpp"
+#include "shards/border_pages.hpp"
 
 #include <abacus/shards.h>
 
@@ -36,8 +38,13 @@ public:
     /// each pair once; several pages may name the same. The attributes are valid until the next
     /// call.
     bool next(std::uint32_t &to, abacus_vertex &vertex);
+    /// In place of all vertices: how many simplices of the mesh the shard owns. It owns those whose
+    /// greatest vertex it does.
+    std::uint64_t count_owned();
 
 private:
+    /// Goes to the next page; false after the last.
+    bool advance();
     void collect();
     void collect(int simplex);
     void collect_beyond();
@@ -50,8 +57,8 @@ private:
     const Box<D> extent_;
     const ShardRegions<D> regions_;
     const unsigned attributes_;
-    const bool has_simplices_;
-    PageScan<D> pages_;
+    const std::uint64_t simplices_;
+    std::optional<BorderPages<D>> pages_; // if there are any
     VertexReader<D> waiting_;
     std::uint32_t next_receiver_; // of the point that waits
     VertexValues<D> values_;

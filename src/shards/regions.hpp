@@ -69,6 +69,13 @@ public:
         }
     }
 
+    /// Calls visit(box, shard) for boxes that together contain all points of a shard's region, for
+    /// all shards; a box without any may have its upper end below the lower one.
+    template <class Visit> void each_box(Visit visit) const {
+        for (const Node &node : nodes_)
+            if (node.owner != mixed) visit(node.box, node.owner);
+    }
+
 private:
     static constexpr int children = 1 << D;
     static constexpr std::uint32_t mixed = ~0u;

@@ -154,10 +154,10 @@ INSERT INTO wanted VALUES
     ('abacus_levels', 'mesh regclass, errors double precision[], attribute text DEFAULT NULL::text, OUT level integer, OUT level_mesh regclass, OUT error double precision, OUT vertices bigint', 'SETOF record', 'v', false, 'u'),
     ('abacus_levels_refresh', 'mesh regclass, OUT level integer, OUT level_mesh regclass, OUT error double precision, OUT vertices bigint', 'SETOF record', 'v', true, 'u'),
     ('abacus_levels_drop', 'mesh regclass', 'integer', 'v', true, 'u'),
-    ('abacus_shard_begin', 'mesh text, dimension integer, attributes text[], lower double precision[], upper double precision[]', 'regclass', 'v', false, 'u'),
+    ('abacus_shard_begin', 'mesh text, dimension integer, attributes text[], lower double precision[], upper double precision[], srid integer DEFAULT 0', 'regclass', 'v', false, 'u'),
     ('abacus_shard_build', 'IN mesh regclass, IN query text', NULL, 'v', false, 'u'),
     ('abacus_shard_build', 'IN mesh regclass, IN queries text[]', NULL, 'v', false, 'u'),
-    ('abacus_shard_count', 'mesh regclass, first bigint, last bigint', 'bigint', 's', true, 's'),
+    ('abacus_shard_count', 'mesh regclass, borders bigint[], own integer, "least" double precision[], "greatest" double precision[]', 'bigint', 's', true, 's'),
     ('abacus_shard_create', 'mesh text, servers text[], dimension integer DEFAULT 2, attributes text[] DEFAULT NULL::text[], lower double precision[] DEFAULT NULL::double precision[], upper double precision[] DEFAULT NULL::double precision[]', 'regclass', 'v', false, 'u'),
     ('abacus_shard_drop', 'mesh regclass', 'void', 'v', true, 'u'),
     ('abacus_shard_exports', 'mesh regclass, borders bigint[], own integer, "least" double precision[], "greatest" double precision[], OUT shard integer, OUT id bigint, OUT x double precision, OUT y double precision, OUT z double precision, OUT attributes double precision[]', 'SETOF record', 's', true, 's'),
@@ -165,7 +165,9 @@ INSERT INTO wanted VALUES
     ('abacus_shard_owner', 'lower double precision[], upper double precision[], borders bigint[], place double precision[]', 'integer', 'i', true, 's'),
     ('abacus_shard_pages', 'mesh regclass, kind integer, first bigint, last bigint, from_code bigint, from_part bigint, bytes integer, OUT code bigint, OUT part bigint, OUT page bytea', 'SETOF record', 's', true, 's'),
     ('abacus_shard_settled', 'mesh regclass, first bigint, last bigint, ids bigint[], places double precision[], OUT id bigint, OUT x double precision, OUT y double precision, OUT z double precision', 'SETOF record', 's', true, 's'),
-    ('abacus_shard_survey', 'query text, dimension integer, lower double precision[] DEFAULT NULL::double precision[], upper double precision[] DEFAULT NULL::double precision[], OUT points bigint, OUT attributes text[], OUT "least" double precision[], OUT "greatest" double precision[], OUT sample double precision[]', 'record', 'v', false, 'u'),
+    ('abacus_shard_split', 'attributes integer, lower double precision[], upper double precision[], borders bigint[], own integer', 'bigint', 'v', true, 'u'),
+    ('abacus_shard_stage', 'mesh regclass, borders bigint[], own integer, "least" double precision[], "greatest" double precision[]', 'bigint', 'v', true, 'u'),
+    ('abacus_shard_survey', 'query text, dimension integer, own integer, lower double precision[] DEFAULT NULL::double precision[], upper double precision[] DEFAULT NULL::double precision[], OUT points bigint, OUT attributes text[], OUT "least" double precision[], OUT "greatest" double precision[], OUT srid integer, OUT sample double precision[]', 'record', 'v', false, 'u'),
     ('abacus_shard_take', 'mesh regclass, query text', 'bigint', 'v', true, 'u'),
     ('abacus_shards', 'mesh regclass, OUT shard integer, OUT server text, OUT shard_mesh text, OUT first bigint, OUT "end" bigint, OUT state text, OUT doing text, OUT points bigint, OUT guests bigint, OUT bytes bigint', 'SETOF record', 'v', true, 'u'),
     ('abacus_level', 'mesh regclass, max_error double precision', 'regclass', 's', true, 's'),
@@ -215,7 +217,7 @@ SELECT is_empty(
 SELECT ok(has_server_privilege('public', 'abacus', 'USAGE'), 'everyone may publish');
 SELECT has_view('abacus_progress');
 SELECT ok(has_table_privilege('public', 'abacus_progress', 'SELECT'), 'progress is for everyone');
-SELECT columns_are('abacus_progress', ARRAY['pid', 'mesh', 'phase', 'done', 'total', 'per_second', 'time_left', 'elapsed', 'pages_read', 'pages_written', 'threads', 'busy', 'session_busy']);
+SELECT columns_are('abacus_progress', ARRAY['pid', 'mesh', 'phase', 'done', 'total', 'per_second', 'time_left', 'elapsed', 'pages_read', 'pages_written', 'threads', 'busy', 'session_busy', 'rounds']);
 
 SELECT isnt(abacus_version(), NULL, 'the module is loaded');
 SELECT is(current_setting('abacus.cache_size'), '128MB', 'default cache');

@@ -150,6 +150,17 @@ protected:
         abacus_exports_close(exports);
         return sent;
     }
+    /// How many simplices a shard counts as its own.
+    std::uint64_t owned(std::uint32_t shard, MeshOf<D> &mesh) {
+        abacus_exports *exports = nullptr;
+        std::uint64_t count = 0;
+        EXPECT_EQ(abacus_exports_open(mesh.host.table(), &mesh.header.facts, borders.data(),
+                                      borders.size(), shard, &extent, &exports, &mesh.error),
+                  ABACUS_OK);
+        EXPECT_EQ(abacus_exports_count(exports, &count, &mesh.error), ABACUS_OK);
+        abacus_exports_close(exports);
+        return count;
+    }
     Outcome build(const Inputs &inputs, std::uint32_t count) {
         Outcome outcome;
         plan(inputs, count);
@@ -171,8 +182,10 @@ protected:
         }
         for (std::uint32_t i = 0; i < count; ++i) {
             EXPECT_EQ(shards[i].mesh->check(), std::vector<std::string>{});
+            const std::size_t before = outcome.rows.size();
             for (const Row<D> &row : rows(*shards[i].mesh))
                 if (owner(row.code) == i) outcome.rows.push_back(row);
+            EXPECT_EQ(owned(i, *shards[i].mesh), outcome.rows.size() - before);
             EXPECT_EQ(shards[i].mesh->host.bytes, 0u);
         }
         std::sort(outcome.rows.begin(), outcome.rows.end());

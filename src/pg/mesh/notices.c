@@ -6,24 +6,16 @@
 
 #include "pg/mesh/notices.h"
 
-/*
- * Reports points that equal a vertex; `before`: how many there were before the change. `hint`: the
- * caller can choose what happens to them.
- */
+/* Reports points that equal a vertex. `hint`: the caller can choose what happens to them. */
 void
-notice_duplicates(const Writer *writer, uint64 before, bool hint)
+notice_equal_points(const char *mesh, uint64 points, bool hint)
 {
-	const abacus_facts *facts = &writer->header->facts;
-	uint64		points;
-
-	if (facts->census.duplicates <= before)
+	if (points == 0)
 		return;
-	points = facts->census.duplicates - before;
 	ereport(NOTICE,
 			(errmsg_plural(UINT64_FORMAT " point equals a vertex of mesh \"%s\"",
 						   UINT64_FORMAT " points equal vertices of mesh \"%s\"",
-						   (unsigned long) points, points,
-						   RelationGetRelationName(mesh_pages(writer->host)->simplices.heap)),
+						   (unsigned long) points, points, mesh),
 			 errdetail("A vertex has the id and the attributes of the point that came first; "
 					   "the others are kept beside it."),
 			 hint ? errhint("Use on_duplicate => 'replace' to take the id and the attributes from "
@@ -32,21 +24,40 @@ notice_duplicates(const Writer *writer, uint64 before, bool hint)
 
 /* Reports points that wait since they span no simplex. */
 void
-notice_waiting(const Writer *writer)
+notice_waiting_points(const char *mesh, uint32 dimension, uint64 points)
 {
-	const abacus_facts *facts = &writer->header->facts;
-	uint64		points = facts->census.staged - facts->census.inserted;
-
-	if (facts->census.vertices > 0 || points == 0)
+	if (points == 0)
 		return;
 	ereport(NOTICE,
 			(errmsg_plural(UINT64_FORMAT " point of mesh \"%s\" waits: it spans no simplex",
 						   UINT64_FORMAT " points of mesh \"%s\" wait: they span no simplex",
-						   (unsigned long) points, points,
-						   RelationGetRelationName(mesh_pages(writer->host)->simplices.heap)),
-			 points <= facts->form.dimension
-			 ? errdetail("A %s has %u vertices.", facts->form.dimension == 2 ? "triangle" : "tetrahedron",
-						 facts->form.dimension + 1)
-			 : facts->form.dimension == 2 ? errdetail("All are on one line.")
+						   (unsigned long) points, points, mesh),
+			 points <= dimension
+			 ? errdetail("A %s has %u vertices.", dimension == 2 ? "triangle" : "tetrahedron", dimension + 1)
+			 : dimension == 2 ? errdetail("All are on one line.")
 			 : errdetail("All are in one plane.")));
+}
+
+static const char *
+name_of(const Writer *writer)
+{
+	return RelationGetRelationName(mesh_pages(writer->host)->simplices.heap);
+}
+
+/* Points that equal a vertex; `before`: how many there were before the change. */
+void
+notice_duplicates(const Writer *writer, uint64 before, bool hint)
+{
+	uint64		now = writer->header->facts.census.duplicates;
+
+	notice_equal_points(name_of(writer), now - Min(now, before), hint);
+}
+
+void
+notice_waiting(const Writer *writer)
+{
+	const abacus_facts *facts = &writer->header->facts;
+
+	if (facts->census.vertices == 0)
+		notice_waiting_points(name_of(writer), facts->form.dimension, facts->census.staged - facts->census.inserted);
 }

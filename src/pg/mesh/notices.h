@@ -6,6 +6,8 @@
 
 #include "pg/mesh/writer.h"
 
+extern void notice_equal_points(const char *mesh, uint64 points, bool hint);
+extern void notice_waiting_points(const char *mesh, uint32 dimension, uint64 points);
 extern void notice_duplicates(const Writer *writer, uint64 before, bool hint);
 extern void notice_waiting(const Writer *writer);
 

@@ -10,9 +10,14 @@
 
 #include "miscadmin.h"
 
+#include "utils/lsyscache.h"
+
+#include "pg/mesh/notices.h"
+#include "pg/shards/build_progress.h"
 #include "pg/shards/exchange.h"
 #include "pg/shards/relay.h"
 #include "pg/shards/shard_sql.h"
+#include "pg/shards/shard_state.h"
 
 static void
 send_to_all(ShardLinks *links, const char *statement)
@@ -32,9 +37,14 @@ finish_all(ShardLinks *links)
 void
 triangulate_shards(Generation *generation, ShardLinks *links)
 {
+	build_progress(SHOWN_TRIANGULATING, 0, links->count, 0);
 	for (int i = 0; i < links->count; i++)
 		link_send(links, i, shard_sql_take(generation, i));
-	finish_all(links);
+	for (int i = 0; i < links->count; i++)
+	{
+		link_finish(links, i);
+		build_progress_add(1);
+	}
 }
 
 /* A round; returns how many vertices were sent. */
@@ -62,11 +72,26 @@ count_simplices(const Generation *generation, ShardLinks *links)
 	int64		count = 0;
 
 	for (int i = 0; i < links->count; i++)
-		link_send(links, i, psprintf("SELECT abacus_shard_count('%s', %s)", generation_mesh(generation, i),
-									 shard_sql_stretch(generation, i)));
+		link_send(links, i, shard_sql_count(generation, i));
 	for (int i = 0; i < links->count; i++)
 		count += link_int64(links, i);
 	return count;
+}
+
+/* Reports what a single server would have reported of all points. */
+static void
+report_points(const Generation *generation, ShardLinks *links)
+{
+	const char *mesh = get_rel_name(generation->relid);
+	ShardState *states = shard_states(generation, links);
+	int64		duplicates = 0;
+
+	for (int i = 0; i < generation->shards; i++)
+		duplicates += states[i].duplicates;
+	if (generation->simplices > 0)
+		notice_equal_points(mesh, (uint64) duplicates, false);
+	else
+		notice_waiting_points(mesh, generation->form.dimension, (uint64) generation->points);
 }
 
 void
@@ -81,6 +106,7 @@ exchange_vertices(Generation *generation, ShardLinks *links)
 	do
 	{
 		CHECK_FOR_INTERRUPTS();
+		build_progress(SHOWN_EXCHANGING, generation->sent, 0, generation->rounds + 1);
 		sent = exchange_once(generation, links);
 		generation->sent += sent;
 		generation->rounds++;
@@ -88,4 +114,5 @@ exchange_vertices(Generation *generation, ShardLinks *links)
 	send_to_all(links, shard_sql_end_exchange());
 	finish_all(links);
 	generation->simplices = count_simplices(generation, links);
+	report_points(generation, links);
 }

@@ -17,6 +17,7 @@
 #include "pg/mesh/lines_table.h"
 #include "pg/mesh/mesh.h"
 #include "pg/shards/generation.h"
+#include "pg/shards/shard_owner.h"
 
 /* Columns of type abacus_shard_generation */
 enum
@@ -39,13 +40,14 @@ enum
 	GENERATION_SIMPLICES,
 	GENERATION_NAMES_GIVEN,
 	GENERATION_DOMAIN_GIVEN,
+	GENERATION_SRID,
 	GENERATION_COLUMNS
 };
 StaticAssertDecl(GENERATION_COLUMNS == SHARD_GENERATION_COLUMNS, "the columns of abacus_shard_generation");
 
 static Oid column_types[GENERATION_COLUMNS] = {
 	INT8OID, TEXTOID, TEXTOID, TEXTOID, TEXTARRAYOID, INT4OID, TEXTARRAYOID, FLOAT8ARRAYOID, FLOAT8ARRAYOID,
-	FLOAT8ARRAYOID, FLOAT8ARRAYOID, INT8ARRAYOID, INT8OID, INT4OID, INT8OID, INT8OID, BOOLOID, BOOLOID
+	FLOAT8ARRAYOID, FLOAT8ARRAYOID, INT8ARRAYOID, INT8OID, INT4OID, INT8OID, INT8OID, BOOLOID, BOOLOID, INT4OID
 };
 
 static const char *const phase_names[] = {
@@ -142,6 +144,7 @@ static void
 read_row(Generation *generation, const Datum *values, const bool *isnull)
 {
 	int32		dimension = isnull[GENERATION_DIMENSION] ? 0 : DatumGetInt32(values[GENERATION_DIMENSION]);
+	int32		srid;
 
 	if (isnull[GENERATION_PHASE] || isnull[GENERATION_TOKEN] || isnull[GENERATION_SERVERS] ||
 		(dimension != 2 && dimension != 3))
@@ -179,11 +182,15 @@ read_row(Generation *generation, const Datum *values, const bool *isnull)
 	generation->simplices = isnull[GENERATION_SIMPLICES] ? 0 : DatumGetInt64(values[GENERATION_SIMPLICES]);
 	generation->names_given = !isnull[GENERATION_NAMES_GIVEN] && DatumGetBool(values[GENERATION_NAMES_GIVEN]);
 	generation->domain_given = !isnull[GENERATION_DOMAIN_GIVEN] && DatumGetBool(values[GENERATION_DOMAIN_GIVEN]);
+	srid = isnull[GENERATION_SRID] ? 0 : DatumGetInt32(values[GENERATION_SRID]);
+	if (srid < 0 || srid > ABACUS_MAX_SRID)
+		refuse_row(generation->relid, psprintf("There is no SRID %d.", srid));
+	generation->form.srid = (uint32) srid;
 }
 
 #define ALL_COLUMNS \
 	"generation, phase, source, token, servers, dimension, attributes, lower, upper, least, greatest, borders, " \
-	"points, rounds, sent, simplices, names_given, domain_given"
+	"points, rounds, sent, simplices, names_given, domain_given, srid"
 
 /* The first row of those chosen; false if there is none. SPI must be connected. */
 static bool
@@ -295,6 +302,7 @@ make_row(const Generation *generation, Datum *values, char *nulls)
 	values[GENERATION_SIMPLICES] = Int64GetDatum(generation->simplices);
 	values[GENERATION_NAMES_GIVEN] = BoolGetDatum(generation->names_given);
 	values[GENERATION_DOMAIN_GIVEN] = BoolGetDatum(generation->domain_given);
+	values[GENERATION_SRID] = Int32GetDatum((int32) form->srid);
 	if (generation->source == NULL)
 		nulls[GENERATION_SOURCE] = 'n';
 	else
@@ -337,7 +345,7 @@ generation_insert(const Generation *generation)
 {
 	change_row(generation,
 			   psprintf("INSERT INTO %s (" ALL_COLUMNS ") VALUES ($1, $2, $3, $4, $5, $6, $7, $8, $9, $10, $11, "
-						"$12, $13, $14, $15, $16, $17, $18)", lines_table_name(generation->relid)));
+						"$12, $13, $14, $15, $16, $17, $18, $19)", lines_table_name(generation->relid)));
 }
 
 void
@@ -345,7 +353,7 @@ generation_update(const Generation *generation)
 {
 	change_row(generation,
 			   psprintf("UPDATE %s SET (" ALL_COLUMNS ") = ROW ($1, $2, $3, $4, $5, $6, $7, $8, $9, $10, $11, "
-						"$12, $13, $14, $15, $16, $17, $18) WHERE generation OPERATOR(pg_catalog.=) $1",
+						"$12, $13, $14, $15, $16, $17, $18, $19) WHERE generation OPERATOR(pg_catalog.=) $1",
 						lines_table_name(generation->relid)));
 }
 
@@ -370,17 +378,5 @@ generation_mesh(const Generation *generation, int shard)
 uint32
 generation_owner(const Generation *generation, uint64 code)
 {
-	uint32		least = 0;
-	uint32		most = (uint32) generation->shards - 1;
-
-	while (least < most)
-	{
-		uint32		middle = (least + most) / 2;
-
-		if (code < generation->borders[middle])
-			most = middle;
-		else
-			least = middle + 1;
-	}
-	return least;
+	return (uint32) owner_of_code(generation->borders, generation->shards - 1, code);
 }

@@ -8,6 +8,7 @@
 
 #include "catalog/pg_type.h"
 #include "utils/array.h"
+#include "utils/builtins.h"
 #include "utils/float.h"
 #include "utils/memutils.h"
 
@@ -16,8 +17,9 @@
 
 #define ROWS_A_TIME 4096
 
-/* Columns of what is exported */
+/* Columns of what is exported, and of what was split off */
 static const Oid export_columns[] = {INT4OID, INT8OID, FLOAT8OID, FLOAT8OID, FLOAT8OID, FLOAT8ARRAYOID};
+static const Oid split_columns[] = {INT4OID, BYTEAOID};
 
 typedef struct Relay
 {
@@ -47,6 +49,62 @@ relay_batch(const Generation *generation, ShardLinks *links, int from, int to, P
 	MemoryContextDelete(scratch);
 	point_batch_clear(batch);
 }
+
+/* ---- Points that are spread, as bytes ------------------------------------------------------- */
+
+/* Sends points of a query to a server, unless there are none; then the bytes are empty. */
+void
+relay_bytes(ShardLinks *links, int from, int to, StringInfo bytes)
+{
+	char	   *text;
+	char	   *statement;
+
+	if (bytes->len == 0)
+		return;
+	text = palloc(2 * bytes->len + 1);
+	text[hex_encode(bytes->data, bytes->len, text)] = '\0';
+	statement = shard_sql_arrive(from, to, text);
+	link_finish(links, to);
+	link_send(links, to, statement);
+	pfree(statement);
+	pfree(text);
+	resetStringInfo(bytes);
+}
+
+typedef struct SplitRelay
+{
+	ShardLinks *links;
+	int			from;
+	StringInfoData bytes;
+} SplitRelay;
+
+static void
+relay_split_row(void *context, HeapTuple row, TupleDesc desc)
+{
+	SplitRelay *relay = context;
+	int			to = DatumGetInt32(link_row_value(row, desc, 1));
+	bytea	   *points = DatumGetByteaPP(link_row_value(row, desc, 2));
+
+	if (to < 0 || to >= relay->links->count || to == relay->from)
+		elog(ERROR, "server \"%s\" sends points to shard %d", relay->links->servers[relay->from], to);
+	appendBinaryStringInfo(&relay->bytes, VARDATA_ANY(points), (int) VARSIZE_ANY_EXHDR(points));
+	relay_bytes(relay->links, relay->from, to, &relay->bytes);
+}
+
+/* Passes on what a server has split off its own query. The points are not unpacked here. */
+void
+relay_split(ShardLinks *links, int from)
+{
+	SplitRelay	relay = {links, from};
+
+	initStringInfo(&relay.bytes);
+	link_finish(links, from);
+	link_send(links, from, shard_sql_split_rows(from));
+	(void) link_each_row(links, from, link_columns(lengthof(split_columns), split_columns, NULL), relay_split_row, &relay);
+	pfree(relay.bytes.data);
+}
+
+/* ---- Guests --------------------------------------------------------------------------------- */
 
 /* Reads attributes; NaN stands for one that is missing. */
 static void

@@ -12,6 +12,8 @@ typedef char *(*RelayStatement) (const Generation *generation, int from, int sha
 
 extern void relay_batch(const Generation *generation, ShardLinks *links, int from, int to, PointBatch *batch,
 						RelayStatement statement);
+extern void relay_bytes(ShardLinks *links, int from, int to, StringInfo bytes);
+extern void relay_split(ShardLinks *links, int from);
 extern int64 relay_exported(const Generation *generation, ShardLinks *links, int from, RelayStatement statement);
 
 #endif

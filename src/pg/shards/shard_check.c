@@ -125,7 +125,7 @@ send_vertices(Examination *examination, ShardLinks *links, char *(*found) (const
 	for (int i = 0; i < links->count; i++)
 		link_finish(links, i);
 	for (int i = 0; i < links->count; i++)
-		(void) relay_exported(generation, links, i, shard_sql_arrive);
+		(void) relay_exported(generation, links, i, shard_sql_list_arrived);
 	for (int i = 0; i < links->count; i++)
 		link_finish(links, i);
 }

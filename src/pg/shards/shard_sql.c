@@ -11,6 +11,7 @@
 
 #include "utils/builtins.h"
 
+#include "pg/shards/point_room.h"
 #include "pg/shards/shard_sql.h"
 
 /* ---- Pieces --------------------------------------------------------------------------------- */
@@ -40,6 +41,15 @@ point_literal(const abacus_form *form, const double *point)
 	return literal.data;
 }
 
+/* The corners of the domain, if there is one. */
+static char *
+domain_literals(const abacus_form *form)
+{
+	if (!form->has_domain)
+		return pstrdup("NULL, NULL");
+	return psprintf("%s, %s", point_literal(form, form->lower), point_literal(form, form->upper));
+}
+
 static char *
 border_literal(const Generation *generation)
 {
@@ -51,6 +61,16 @@ border_literal(const Generation *generation)
 		appendStringInfo(&literal, "%s" UINT64_FORMAT, i == 0 ? "" : ",", generation->borders[i]);
 	appendStringInfoString(&literal, "}'::bigint[]");
 	return literal.data;
+}
+
+/* The arguments of functions that look at a shard's mesh as a part of the whole. */
+static char *
+shard_arguments(const Generation *generation, int shard)
+{
+	const abacus_form *form = &generation->form;
+
+	return psprintf("'%s', %s, %d, %s, %s", generation_mesh(generation, shard), border_literal(generation), shard,
+					point_literal(form, generation->extent.lower), point_literal(form, generation->extent.upper));
 }
 
 /*
@@ -95,27 +115,14 @@ shard_sql_begin(const Generation *generation, int shard)
 {
 	const abacus_form *form = &generation->form;
 	char	   *mesh = generation_mesh(generation, shard);
-	const char *domain = "NULL, NULL";
 
-	if (form->has_domain)
-		domain = psprintf("%s, %s", point_literal(form, form->lower), point_literal(form, form->upper));
-	return psprintf("%s; SELECT abacus_shard_begin('%s', %u, %s, %s)::text; "
+	return psprintf("%s; SELECT abacus_shard_begin('%s', %u, %s, %s, %u)::text; "
 					"CREATE TABLE %s_guests (id bigint NOT NULL, x double precision, y double precision, "
 					"z double precision, attributes double precision[] NOT NULL, inserted boolean NOT NULL, "
 					"PRIMARY KEY (x, y, z))",
 					shard_sql_drop(generation, shard), mesh, form->dimension,
-					text_list(generation->attributes, generation->attribute_count), domain, mesh);
-}
-
-char *
-shard_sql_stage(const Generation *generation, int from, int shard, const PointBatch *batch)
-{
-	char	   *query = psprintf("SELECT id, %s FROM %s ORDER BY n",
-								 point_columns(batch->dimension, batch->attributes, "a%d"),
-								 point_batch_rows(batch));
-
-	return psprintf("SELECT abacus_stage('%s', %s)::text", generation_mesh(generation, shard),
-					quote_literal_cstr(query));
+					text_list(generation->attributes, generation->attribute_count), domain_literals(form), form->srid,
+					mesh);
 }
 
 /* Inserts the points that wait, and the guests that have come. */
@@ -130,7 +137,7 @@ shard_sql_take(const Generation *generation, int shard)
 					mesh, mesh);
 }
 
-/* ---- Queries that run on the servers --------------------------------------------------------- */
+/* ---- Points are spread ---------------------------------------------------------------------- */
 
 /* An array of the attributes of a row. */
 static char *
@@ -146,22 +153,9 @@ attribute_list(int attributes)
 	return list.data;
 }
 
-/* A query as a table `q` with columns id, x, y, z, a1, ...; it may end with a semicolon. */
+/* The number of the shard that owns the point x, y[, z]. */
 static char *
-query_rows(const Generation *generation, const char *query)
-{
-	char	   *inner = pstrdup(query);
-	size_t		length = strlen(inner);
-
-	while (length > 0 && strchr("; \t\r\n", inner[length - 1]) != NULL)
-		inner[--length] = '\0';
-	return psprintf("(%s\n) AS q (id, %s)", inner,
-					point_columns(generation->form.dimension, generation->attribute_count, "a%d"));
-}
-
-/* The number of the shard that owns a row of it. */
-static char *
-query_owner(const Generation *generation)
+point_owner(const Generation *generation)
 {
 	const abacus_form *form = &generation->form;
 
@@ -172,68 +166,49 @@ query_owner(const Generation *generation)
 					form->dimension == 2 ? "x, y" : "x, y, z");
 }
 
+/* All that follows is in one snapshot. */
 char *
-shard_sql_survey(const Generation *generation, const char *query)
+shard_sql_begin_spread(const Generation *generation, int shard)
 {
-	const abacus_form *form = &generation->form;
-	const char *domain = "NULL, NULL";
-
-	if (form->has_domain)
-		domain = psprintf("%s, %s", point_literal(form, form->lower), point_literal(form, form->upper));
-	return psprintf("SELECT points, attributes, least, greatest, sample FROM abacus_shard_survey(%s, %u, %s)",
-					quote_literal_cstr(query), form->dimension, domain);
+	return psprintf("BEGIN ISOLATION LEVEL REPEATABLE READ; %s", point_room_create());
 }
 
-/* Temporary tables, for this transaction, of what goes to other servers and what comes from them. */
-const char *
-shard_sql_make_room(void)
+char *
+shard_sql_survey(const Generation *generation, int shard, const char *query)
 {
-	return "CREATE TEMPORARY TABLE abacus_arrival (n bigserial, source integer, id bigint, "
-		"x double precision, y double precision, z double precision, attributes double precision[]) "
-		"ON COMMIT DROP; "
-		"CREATE TEMPORARY TABLE abacus_export (n bigint PRIMARY KEY, shard integer, id bigint, "
-		"x double precision, y double precision, z double precision, attributes double precision[]) "
-		"ON COMMIT DROP";
+	return psprintf("SELECT points, attributes, least, greatest, srid, sample FROM abacus_shard_survey(%s, %u, %d, %s)",
+					quote_literal_cstr(query), generation->form.dimension, shard, domain_literals(&generation->form));
 }
 
-/* Finds the rows of the server's query that others own, and makes room for theirs that it owns. */
+/* Finds the rows of the server's query that others own. */
 char *
-shard_sql_others(const Generation *generation, int shard, const char *query)
+shard_sql_split(const Generation *generation, int shard)
 {
-	char	   *owner = query_owner(generation);
-
-	return psprintf("%s; INSERT INTO pg_temp.abacus_export "
-					"SELECT row_number() OVER (), %s, id, x, y, %s, %s FROM %s WHERE %s <> %d",
-					shard_sql_make_room(), owner, generation->form.dimension == 2 ? "0" : "z",
-					attribute_list(generation->attribute_count), query_rows(generation, query), owner, shard);
+	return psprintf("SELECT abacus_shard_split(%d, %s, %s, %d)::text", generation->attribute_count,
+					domain_literals(&generation->form), border_literal(generation), shard);
 }
 
-/* Rows of another server's query come. */
+/* These rows. */
 char *
-shard_sql_arrive(const Generation *generation, int from, int shard, const PointBatch *batch)
+shard_sql_split_rows(int shard)
 {
-	return psprintf("INSERT INTO pg_temp.abacus_arrival (source, id, x, y, z, attributes) "
-					"SELECT %d, id, x, y, %s, %s FROM %s ORDER BY n",
-					from, batch->dimension == 2 ? "0" : "z", attribute_list(batch->attributes),
-					point_batch_rows(batch));
+	return psprintf("SELECT shard, points FROM pg_temp.abacus_points WHERE source = %d AND shard <> %d ORDER BY n", shard,
+					shard);
+}
+
+/* Points of a query come, as bytes in hexadecimal form. */
+char *
+shard_sql_arrive(int from, int shard, const char *bytes)
+{
+	return psprintf("INSERT INTO pg_temp.abacus_points (source, shard, points) VALUES (%d, %d, '\\x%s')", from, shard,
+					bytes);
 }
 
 /* Stages all that the server owns, in the order of the queries. */
 char *
-shard_sql_stage_arrived(const Generation *generation, int shard, const char *query)
+shard_sql_stage(const Generation *generation, int shard)
 {
-	char	   *mesh = generation_mesh(generation, shard);
-	uint32		dimension = generation->form.dimension;
-	int			attributes = generation->attribute_count;
-	char	   *arrived = psprintf("SELECT id, %s FROM pg_temp.abacus_arrival WHERE source %%s %d ORDER BY source, n",
-								   point_columns(dimension, attributes, "attributes[%d]"), shard);
-	char	   *own = psprintf("SELECT id, %s FROM %s WHERE %s = %d", point_columns(dimension, attributes, "a%d"),
-							   query_rows(generation, query), query_owner(generation), shard);
-
-	return psprintf("SELECT abacus_stage('%s', %s)::text; SELECT abacus_stage('%s', %s)::text; "
-					"SELECT abacus_stage('%s', %s)::text",
-					mesh, quote_literal_cstr(psprintf(arrived, "<")), mesh, quote_literal_cstr(own),
-					mesh, quote_literal_cstr(psprintf(arrived, ">")));
+	return psprintf("SELECT abacus_shard_stage(%s)::text", shard_arguments(generation, shard));
 }
 
 /* ---- The exchange --------------------------------------------------------------------------- */
@@ -261,19 +236,23 @@ shard_sql_end_exchange(void)
 char *
 shard_sql_export(const Generation *generation, int shard)
 {
-	const abacus_form *form = &generation->form;
-
 	return psprintf("DELETE FROM pg_temp.abacus_export; "
 					"WITH found AS MATERIALIZED (SELECT row_number() OVER () AS n, shard, id, x, y, "
-					"coalesce(z, 0) AS z, attributes FROM abacus_shard_exports('%s', %s, %d, %s, %s)), "
+					"coalesce(z, 0) AS z, attributes FROM abacus_shard_exports(%s)), "
 					"fresh AS (INSERT INTO pg_temp.abacus_sent SELECT DISTINCT shard, x, y, z FROM found "
 					"ON CONFLICT DO NOTHING RETURNING shard, x, y, z), "
 					"first AS (SELECT DISTINCT ON (shard, x, y, z) n, shard, id, x, y, z, attributes "
 					"FROM found JOIN fresh USING (shard, x, y, z) ORDER BY shard, x, y, z, n) "
 					"INSERT INTO pg_temp.abacus_export "
 					"SELECT row_number() OVER (ORDER BY n), shard, id, x, y, z, attributes FROM first",
-					generation_mesh(generation, shard), border_literal(generation), shard,
-					point_literal(form, generation->extent.lower), point_literal(form, generation->extent.upper));
+					shard_arguments(generation, shard));
+}
+
+/* Counts the simplices that the shard owns. */
+char *
+shard_sql_count(const Generation *generation, int shard)
+{
+	return psprintf("SELECT abacus_shard_count(%s)", shard_arguments(generation, shard));
 }
 
 /* Some of these rows. */
@@ -295,6 +274,28 @@ shard_sql_receive(const Generation *generation, int from, int shard, const Point
 
 /* ---- The check ------------------------------------------------------------------------------ */
 
+/* Temporary tables, for this transaction, of what goes to other servers and what comes from them. */
+const char *
+shard_sql_make_room(void)
+{
+	return "CREATE TEMPORARY TABLE abacus_arrival (n bigserial, source integer, id bigint, "
+		"x double precision, y double precision, z double precision, attributes double precision[]) "
+		"ON COMMIT DROP; "
+		"CREATE TEMPORARY TABLE abacus_export (n bigint PRIMARY KEY, shard integer, id bigint, "
+		"x double precision, y double precision, z double precision, attributes double precision[]) "
+		"ON COMMIT DROP";
+}
+
+/* What another server has listed comes. */
+char *
+shard_sql_list_arrived(const Generation *generation, int from, int shard, const PointBatch *batch)
+{
+	return psprintf("INSERT INTO pg_temp.abacus_arrival (source, id, x, y, z, attributes) "
+					"SELECT %d, id, x, y, %s, %s FROM %s ORDER BY n",
+					from, batch->dimension == 2 ? "0" : "z", attribute_list(batch->attributes),
+					point_batch_rows(batch));
+}
+
 /* How many points the shard has that it does not own, besides its guests, and how many guests are missing. */
 char *
 shard_sql_strangers(const Generation *generation, int shard)
@@ -306,7 +307,7 @@ shard_sql_strangers(const Generation *generation, int shard)
 					"(SELECT FROM %1$s_guests AS g WHERE g.x = v.x AND g.y = v.y AND g.z = coalesce(v.z, 0))) + "
 					"(SELECT count(*) FROM %1$s_guests AS g WHERE g.inserted AND NOT EXISTS "
 					"(SELECT FROM v WHERE g.x = v.x AND g.y = v.y AND g.z = coalesce(v.z, 0)))",
-					mesh, query_owner(generation), shard);
+					mesh, point_owner(generation), shard);
 }
 
 /* Lists the guests, for their owners. */
@@ -314,7 +315,7 @@ char *
 shard_sql_list_guests(const Generation *generation, int shard)
 {
 	return psprintf("INSERT INTO pg_temp.abacus_export SELECT row_number() OVER (), %s, id, x, y, z, attributes "
-					"FROM %s_guests", query_owner(generation), generation_mesh(generation, shard));
+					"FROM %s_guests", point_owner(generation), generation_mesh(generation, shard));
 }
 
 /* How many of the guests that other shards have listed the shard does not have just so. */
@@ -330,12 +331,8 @@ shard_sql_count_unknown(const Generation *generation, int shard)
 char *
 shard_sql_list_exports(const Generation *generation, int shard)
 {
-	const abacus_form *form = &generation->form;
-
 	return psprintf("INSERT INTO pg_temp.abacus_export SELECT row_number() OVER (), shard, id, x, y, coalesce(z, 0), "
-					"attributes FROM abacus_shard_exports('%s', %s, %d, %s, %s)",
-					generation_mesh(generation, shard), border_literal(generation), shard,
-					point_literal(form, generation->extent.lower), point_literal(form, generation->extent.upper));
+					"attributes FROM abacus_shard_exports(%s)", shard_arguments(generation, shard));
 }
 
 /* How many of these the shard lacks. */

@@ -31,15 +31,25 @@ shard_survey_name_columns(abacus_header *header, const Source *source)
 		shape_attribute(header, source_column_name(source, i));
 }
 
-/* Reads all points of a prepared query. */
-void
-shard_survey_read(ShardSurvey *survey, Source *source, abacus_names names)
+/*
+ * Reads all points of a prepared query, and puts them into the room, if there is one. Returns their SRID;
+ * below 0: no geometries have come.
+ */
+int32
+shard_survey_read(ShardSurvey *survey, Source *source, abacus_names names, PointRoom *room)
 {
 	const uint64 *points;
 	size_t		count;
+	int32		srid;
 
-	source_open(source, names, false);
+	source_open(source, names, true);
 	while ((count = source_fetch(source, &points)) > 0)
+	{
 		host_run(survey->host, abacus_survey_add, survey->survey, points, count);
+		for (size_t i = 0; i < count && room != NULL; i++)
+			point_room_put(room, points + i * room->words);
+	}
+	srid = source->packer->srid;
 	source_close(source);
+	return srid;
 }

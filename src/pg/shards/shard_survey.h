@@ -9,6 +9,7 @@
 #include "abacus/shards.h"
 #include "pg/host/host.h"
 #include "pg/input/source.h"
+#include "pg/shards/point_room.h"
 
 typedef struct ShardSurvey
 {
@@ -19,6 +20,6 @@ typedef struct ShardSurvey
 extern void shard_survey_begin(ShardSurvey *survey, const abacus_facts *facts);
 extern void shard_survey_end(ShardSurvey *survey);
 extern void shard_survey_name_columns(abacus_header *header, const Source *source);
-extern void shard_survey_read(ShardSurvey *survey, Source *source, abacus_names names);
+extern int32 shard_survey_read(ShardSurvey *survey, Source *source, abacus_names names, PointRoom *room);
 
 #endif

@@ -9,7 +9,6 @@
  */
 #include "postgres.h"
 
-#include "access/table.h"
 #include "access/xact.h"
 #include "catalog/pg_class.h"
 #include "common/md5.h"
@@ -21,6 +20,7 @@
 #include "utils/acl.h"
 #include "utils/array.h"
 #include "utils/builtins.h"
+#include "utils/inval.h"
 #include "utils/lsyscache.h"
 
 #include "pg/base/commits.h"
@@ -31,6 +31,7 @@
 #include "pg/mesh/new_table.h"
 #include "pg/mesh/shape.h"
 #include "pg/port/port.h"
+#include "pg/shards/build_progress.h"
 #include "pg/shards/exchange.h"
 #include "pg/shards/shard_sql.h"
 #include "pg/shards/spread.h"
@@ -200,6 +201,7 @@ begin_anew(Generation *generation, const char *source)
 	generation->phase = SHARDS_NEW;
 	generation->source = pstrdup(source);
 	generation->form.has_domain = generation->domain_given;
+	generation->form.srid = 0;
 	if (!generation->names_given)
 		generation->attributes = NULL;
 	generation->attribute_count = generation->names_given ? generation->attribute_count : 0;
@@ -293,20 +295,27 @@ build(Oid relid, const ShardSource *source, int queries)
 	}
 }
 
-/* Checks the table and keeps other builds away; the caller unlocks, and so does an error. */
+static void
+require_owner(Oid relid)
+{
+	mesh_require_sharded(relid);
+	if (!object_ownercheck(RelationRelationId, relid, GetUserId()))
+		aclcheck_error(ACLCHECK_NOT_OWNER, OBJECT_TABLE, get_rel_name(relid));
+}
+
+/*
+ * Checks the table and keeps other builds away; the caller unlocks, and so does an error. No other lock is
+ * held while it waits.
+ */
 static LockRelId
 lock_table(Oid relid)
 {
-	Relation	rel;
-	LockRelId	lock;
+	LockRelId	lock = {.relId = relid,.dbId = MyDatabaseId};
 
-	mesh_require_sharded(relid);
-	rel = table_open(relid, AccessShareLock);
-	lock = rel->rd_lockInfo.lockRelId;
-	if (!object_ownercheck(RelationRelationId, relid, GetUserId()))
-		aclcheck_error(ACLCHECK_NOT_OWNER, OBJECT_TABLE, RelationGetRelationName(rel));
+	require_owner(relid);
 	LockRelationIdForSession(&lock, ShareUpdateExclusiveLock);
-	table_close(rel, NoLock);
+	AcceptInvalidationMessages();
+	require_owner(relid);		/* the table may have been dropped meanwhile */
 	return lock;
 }
 
@@ -317,7 +326,10 @@ build_locked(FunctionCallInfo fcinfo, Oid relid, ShardSource *source, int querie
 
 	PreventCommandIfReadOnly("abacus_shard_build()");
 	lock = lock_table(relid);
+	commit();					/* for a snapshot with what the build before has left */
+	build_progress_begin(relid);
 	build(relid, source, queries);
+	build_progress_end();
 	UnlockRelationIdForSession(&lock, ShareUpdateExclusiveLock);
 }
 

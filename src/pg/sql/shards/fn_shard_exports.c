@@ -9,7 +9,6 @@
 #include "funcapi.h"
 #include "utils/array.h"
 
-#include "abacus/scan.h"
 #include "abacus/shards.h"
 #include "pg/base/sql_function.h"
 #include "pg/mesh/mesh_cache.h"
@@ -56,10 +55,10 @@ words_argument(FunctionCallInfo fcinfo, int argument, const char *name, int *cou
 
 /* ---- abacus_shard_exports ------------------------------------------------------------------- */
 
+/* The arguments behind the mesh say between which borders, which shard, and around which points. */
 static void
-begin_exports(FunctionCallInfo fcinfo, FuncCallContext *set)
+open_exports(FunctionCallInfo fcinfo, Reader *reader)
 {
-	Reader	   *reader = set_begin(fcinfo, set, result_row_type);
 	Host	   *host = reader->host;
 	int			count;
 	const uint64 *borders = words_argument(fcinfo, 1, "borders", &count);
@@ -103,7 +102,7 @@ abacus_sql_shard_exports(PG_FUNCTION_ARGS)
 	if (SRF_IS_FIRSTCALL())
 	{
 		set = SRF_FIRSTCALL_INIT();
-		begin_exports(fcinfo, set);
+		open_exports(fcinfo, set_begin(fcinfo, set, result_row_type));
 	}
 	set = SRF_PERCALL_SETUP();
 	reader = set->user_fctx;
@@ -206,23 +205,19 @@ abacus_sql_shard_settled(PG_FUNCTION_ARGS)
 
 /* ---- abacus_shard_count --------------------------------------------------------------------- */
 
-/* abacus_shard_count(mesh regclass, first bigint, last bigint) -> bigint */
+/*
+ * abacus_shard_count(mesh regclass, borders bigint[], own int, least float8[], greatest float8[])
+ *     -> bigint
+ */
 Datum
 abacus_sql_shard_count(PG_FUNCTION_ARGS)
 {
-	int64		first = PG_GETARG_INT64(1);
-	int64		last = PG_GETARG_INT64(2);
 	Reader	   *reader = reader_open(PG_GETARG_OID(0), CurrentMemoryContext);
-	Host	   *host = reader->host;
-	abacus_scan *scan = NULL;
-	abacus_simplex simplex;
-	int64		count = 0;
+	uint64		count;
 
-	host_run(host, abacus_scan_open, &host->table, &reader->header.facts, 0, &scan);
-	host_own(host, scan, (void (*) (void *)) abacus_scan_close);
-	while (host_run(host, abacus_scan_next, scan, &simplex) != ABACUS_END)
-		count += first <= (int64) simplex.code && (int64) simplex.code <= last;
-	host_release(host);
-	host_destroy(host);
-	PG_RETURN_INT64(count);
+	open_exports(fcinfo, reader);
+	host_run(reader->host, abacus_exports_count, reader->host->handle, &count);
+	host_release(reader->host);
+	host_destroy(reader->host);
+	PG_RETURN_INT64((int64) count);
 }

@@ -21,8 +21,8 @@ SQL_FUNCTION(abacus_sql_shard_begin);
 SQL_FUNCTION(abacus_sql_shard_take);
 
 /*
- * abacus_shard_begin(mesh text, dimension int, attributes text[], lower float8[], upper float8[])
- *     -> regclass
+ * abacus_shard_begin(mesh text, dimension int, attributes text[], lower float8[], upper float8[],
+ *     srid int) -> regclass
  *
  * As abacus_create, but the domain is the box that a plan has found: it may be flat.
  */
@@ -50,6 +50,7 @@ abacus_sql_shard_begin(PG_FUNCTION_ARGS)
 								"xyz"[i])));
 		form->has_domain = 1;
 	}
+	form->srid = PG_ARGISNULL(5) ? 0 : (uint32) Max(0, PG_GETARG_INT32(5));
 	PG_RETURN_OID(new_mesh(PG_GETARG_TEXT_PP(0), get_func_namespace(fcinfo->flinfo->fn_oid), header,
 						   "abacus_shard_begin()"));
 }

@@ -1,6 +1,6 @@
 /*
  * fn_shard_survey.c: abacus_shard_survey and abacus_shard_owner, with which a server deals out the rows of
- * its own query.
+ * its own query. The rows are kept (point_room.h), so the query runs once.
  */
 #include "postgres.h"
 
@@ -14,6 +14,7 @@
 
 #include "pg/base/sql_function.h"
 #include "pg/mesh/shape.h"
+#include "pg/shards/shard_owner.h"
 #include "pg/shards/shard_survey.h"
 #include "pg/sql/rows/result.h"
 
@@ -27,6 +28,7 @@ enum
 	SURVEY_ATTRIBUTES,
 	SURVEY_LEAST,
 	SURVEY_GREATEST,
+	SURVEY_SRID,
 	SURVEY_SAMPLE,
 	SURVEY_COLUMNS
 };
@@ -53,8 +55,8 @@ name_array(const abacus_header *header)
 }
 
 /*
- * abacus_shard_survey(query text, dimension int, lower float8[], upper float8[])
- *     -> points, attributes, least, greatest, sample
+ * abacus_shard_survey(query text, dimension int, own int, lower float8[], upper float8[])
+ *     -> points, attributes, least, greatest, srid, sample
  */
 Datum
 abacus_sql_shard_survey(PG_FUNCTION_ARGS)
@@ -66,28 +68,34 @@ abacus_sql_shard_survey(PG_FUNCTION_ARGS)
 	MemoryContext memory = CurrentMemoryContext;
 	MemoryContext old;
 	ShardSurvey survey;
+	PointRoom	room;
 	Source		source;
 	uint64		points;
+	int32		srid;
 	abacus_box	box;
 	const double *sample;
 	size_t		count;
 
-	if (PG_ARGISNULL(0) || PG_ARGISNULL(1))
+	if (PG_ARGISNULL(0) || PG_ARGISNULL(1) || PG_ARGISNULL(2))
 		ereport(ERROR,
 				(errcode(ERRCODE_NULL_VALUE_NOT_ALLOWED),
-				 errmsg("query and dimension must not be NULL")));
+				 errmsg("query, dimension and own must not be NULL")));
 	shape_dimension(&header->facts.form, PG_GETARG_INT32(1));
-	domain_arguments(fcinfo, 2, &header->facts.form);
+	domain_arguments(fcinfo, 3, &header->facts.form);
 	source_prepare(&source, text_to_cstring(PG_GETARG_TEXT_PP(0)));
 	shard_survey_name_columns(header, &source);
 	shard_survey_begin(&survey, &header->facts);
-	shard_survey_read(&survey, &source, abacus_names_of(header));
+	point_room_open(&room, PG_GETARG_INT32(2), -1, point_words(&header->facts));
+	srid = shard_survey_read(&survey, &source, abacus_names_of(header), &room);
+	point_room_close(&room);
 	host_run(survey.host, abacus_survey_result, survey.survey, &points, &box, &sample, &count);
 	old = MemoryContextSwitchTo(memory);
 	values[SURVEY_POINTS] = Int64GetDatum((int64) points);
 	values[SURVEY_ATTRIBUTES] = name_array(header);
 	values[SURVEY_LEAST] = attribute_array(box.lower, (int) header->facts.form.dimension);
 	values[SURVEY_GREATEST] = attribute_array(box.upper, (int) header->facts.form.dimension);
+	values[SURVEY_SRID] = Int32GetDatum(srid);
+	isnull[SURVEY_SRID] = srid < 0;
 	values[SURVEY_SAMPLE] = attribute_array(sample, (int) (count * header->facts.form.dimension));
 	MemoryContextSwitchTo(old);
 	shard_survey_end(&survey);
@@ -100,14 +108,10 @@ Datum
 abacus_sql_shard_owner(PG_FUNCTION_ARGS)
 {
 	ArrayType  *borders = PG_GETARG_ARRAYTYPE_P(2);
-	const int64 *codes = (const int64 *) ARR_DATA_PTR(borders);
-	int			count = ARR_NDIM(borders) == 0 ? 0 : ARR_DIMS(borders)[0];
 	ArrayType  *place = PG_GETARG_ARRAYTYPE_P(3);
 	abacus_form form = {.dimension = ARR_NDIM(place) == 1 ? (uint32) ARR_DIMS(place)[0] : 0};
 	double		point[ABACUS_MAX_DIMENSION];
-	abacus_error error;
-	uint64		code;
-	int			owner = 0;
+	ShardOwners owners;
 
 	shape_dimension(&form, (int32) form.dimension);
 	domain_arguments(fcinfo, 0, &form);
@@ -122,9 +126,6 @@ abacus_sql_shard_owner(PG_FUNCTION_ARGS)
 		ereport(ERROR,
 				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
 				 errmsg("borders must be a one-dimensional array without NULLs")));
-	if (abacus_codes(&form, point, 1, &code, &error) != ABACUS_OK)
-		elog(ERROR, "could not compute a code: %s", error.message);
-	while (owner < count && (uint64) codes[owner] <= code)
-		owner++;
-	PG_RETURN_INT32(owner);
+	owners = (ShardOwners) {form, (const uint64 *) ARR_DATA_PTR(borders), ARR_NDIM(borders) == 0 ? 0 : ARR_DIMS(borders)[0]};
+	PG_RETURN_INT32(owner_of_point(&owners, point));
 }
