@@ -11,6 +11,7 @@
 #include "pg/levels/levels_table.h"
 #include "pg/mesh/mesh_cache.h"
 #include "pg/shards/connection.h"
+#include "pg/remote/remote_pages.h"
 #include "pg/space/vacuum.h"
 #include "pg/track/pending.h"
 #include "pg/track/tracking.h"
@@ -39,6 +40,7 @@ _PG_init(void)
 	mesh_tell_of_restored(bind_restored);
 	pending_init();
 	connection_init();
+	remote_pages_init();
 }
 
 /* The version of the module, which may differ from that of the extension's SQL objects. */

@@ -160,10 +160,8 @@ sub fails
 	like($err, $pattern, $what);
 	return;
 }
-fails("SELECT * FROM abacus_edges('many')", qr/0A000.*lies on several servers/, 'a function that is not there yet');
+fails("SELECT * FROM abacus_steps('many')", qr/0A000.*lies on several servers/, 'a function for meshes of one server');
 fails("SELECT abacus_insert('many', 'SELECT 1, 2, 3, 4')", qr/0A000/, 'a change');
-fails("SELECT abacus_interpolate('many', 1, 1, method => 'natural')", qr/0A000.*where values are linear/, 'another method');
-fails("SELECT * FROM abacus_interpolate('many', 'TABLE places', outside => 'nearest')", qr/0A000/, 'values outside');
 fails("SELECT abacus_locate('many', 'NaN', 1)", qr/22023.*x is not a number/, 'a NaN');
 fails("SELECT abacus_locate('many', 1, 1, 1)", qr/22023.*z is given/, 'a coordinate too many');
 fails("SELECT * FROM abacus_nearest('many', 1, 1, 0)", qr/22023.*k must be at least 1/, 'no vertices');

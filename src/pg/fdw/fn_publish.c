@@ -411,7 +411,7 @@ abacus_sql_unpublish(PG_FUNCTION_ARGS)
 	int			others;
 
 	/* as mesh_table_open(), but dropping the tables does not need the right to read the mesh */
-	if (mesh_of_table(mesh) != mesh)
+	if (mesh_of_table(mesh) != mesh && !mesh_is_sharded(mesh))
 		table_close(mesh_table_open(mesh, MESH_READ), NoLock);
 	others = drop("DROP VIEW", shown_views(mesh)) + drop_level_tables(mesh);
 	PG_RETURN_INT32(others + drop("DROP FOREIGN TABLE", shown_tables(mesh)));

@@ -13,6 +13,7 @@
 #include "postgres.h"
 
 #include "lib/stringinfo.h"
+#include "utils/lsyscache.h"
 
 #include "pg/mesh/header.h"
 #include "pg/mesh/names.h"
@@ -123,6 +124,8 @@ header_open_vertices(Host *host, const abacus_facts *facts)
 	MeshPages  *pages = mesh_pages(host);
 	bool		found = true;
 
+	if (pages->remote != NULL)
+		return;
 	mesh_pages_vertex_table(pages);
 	if (facts->census.duplicates > 0)
 		found = mesh_pages_any(pages, ABACUS_REPEATED_PAGES);
@@ -200,10 +203,11 @@ void
 header_require_type(Host *host, const abacus_form *form)
 {
 	const MeshPages *pages = mesh_pages(host);
-	const char *name = RelationGetRelationName(pages->simplices.heap);
+	const char *name;
 
 	if (pages->type == ANY_TYPE || pages->type == form->type)
 		return;
+	name = get_rel_name(pages->mesh);
 	if (form->type == ABACUS_OCTREE)
 		ereport(ERROR,
 				(errcode(ERRCODE_WRONG_OBJECT_TYPE),
@@ -221,6 +225,12 @@ header_read(Host *host, abacus_header *header, ItemPointer tid)
 {
 	StoredPage	row;
 
+	if (mesh_pages(host)->remote != NULL)
+	{
+		mesh_pages_read_remote_header(mesh_pages(host), header);
+		header_require_type(host, &header->facts.form);
+		return;
+	}
 	if (!header_find(host, &row))
 		ereport(ERROR,
 				(errcode(ERRCODE_DATA_CORRUPTED),

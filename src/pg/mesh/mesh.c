@@ -177,6 +177,18 @@ mesh_table_open(Oid relid, MeshAccess access)
 }
 
 /*
+ * The same to read the mesh, also one over several servers. Its table is read by SQL, so PostgreSQL checks
+ * privileges.
+ */
+Relation
+mesh_table_open_to_read(Oid relid)
+{
+	if (mesh_is_sharded(relid))
+		return table_open(relid, AccessShareLock);
+	return mesh_table_open(relid, MESH_READ);
+}
+
+/*
  * Keeps all others from changing the mesh and its definition, over several transactions. Only
  * readers continue; VACUUM stays away. The caller unlocks; an error unlocks by itself.
  *

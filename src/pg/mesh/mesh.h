@@ -56,6 +56,7 @@ typedef struct MeshLocks
 } MeshLocks;
 
 extern Relation mesh_table_open(Oid relid, MeshAccess access);
+extern Relation mesh_table_open_to_read(Oid relid);
 extern LockRelId mesh_lock_for_session(Oid relid);
 extern bool mesh_try_lock_for_session(Oid relid, bool vertices, MeshLocks *locks);
 extern void mesh_unlock_for_session(MeshLocks *locks);

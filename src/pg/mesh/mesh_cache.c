@@ -135,7 +135,7 @@ validate(Oid relid, Entry *entry, uint32 type)
 
 	/* taking a lock that the transaction already holds does not process changes of privileges */
 	AcceptInvalidationMessages();
-	rel = mesh_table_open(relid, MESH_READ);
+	rel = mesh_table_open_to_read(relid);
 	/* the data of a mesh lies in one file; TRUNCATE and rewrites give it another */
 	if (entry != NULL &&
 		(entry->cached.host->busy || !RelFileLocatorEquals(entry->node, rel->rd_locator) ||

@@ -198,6 +198,21 @@ mesh_pages_any(MeshPages *pages, abacus_page_kind kind)
 	return mesh_pages_find(pages, kind, last, &page);
 }
 
+static const RemoteMeshes *remote_meshes = NULL;
+
+/* Says how meshes are read whose pages lie on other servers. */
+void
+mesh_pages_set_remote(const RemoteMeshes *functions)
+{
+	remote_meshes = functions;
+}
+
+void
+mesh_pages_read_remote_header(MeshPages *pages, abacus_header *header)
+{
+	remote_meshes->read_header(pages->remote, header);
+}
+
 /* A host for the pages of a mesh, in a memory context under `parent`. */
 Host *
 mesh_host_create(MemoryContext parent, Oid mesh, MeshAccess access)
@@ -214,6 +229,11 @@ mesh_host_create(MemoryContext parent, Oid mesh, MeshAccess access)
 	pages->access = access;
 	page_table_init(&pages->simplices, mesh, access != MESH_READ, host->home);
 	page_table_init(&pages->vertices, InvalidOid, access != MESH_READ, host->home);
+	if (access == MESH_READ && mesh_is_sharded(mesh))
+	{
+		pages->remote = remote_meshes->open(host, pages);
+		return host;
+	}
 	host_register_pages(host, ABACUS_SIMPLEX_PAGES, &functions, pages);
 	host_register_pages(host, ABACUS_STAGED_PAGES, &functions, pages);
 	host_register_pages(host, ABACUS_REPEATED_PAGES, &functions, pages);

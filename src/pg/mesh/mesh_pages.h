@@ -14,6 +14,17 @@
 /* For pages of any type, when they are moved or inspected. */
 #define ANY_TYPE UINT32_MAX
 
+struct MeshPages;
+
+/* How pages are read that lie on other servers: a room above knows. */
+typedef struct RemoteMeshes
+{
+	/* Registers the functions for the pages of a mesh with its host; returns what these need. */
+	struct RemotePages *(*open) (Host *host, struct MeshPages *pages);
+	/* The header, under the active snapshot. */
+	void		(*read_header) (struct RemotePages *remote, abacus_header *header);
+} RemoteMeshes;
+
 typedef struct MeshPages
 {
 	Oid			mesh;
@@ -22,9 +33,12 @@ typedef struct MeshPages
 	uint32		name_rows;		/* rows of names beside the header: header.c */
 	PageTable	simplices;
 	PageTable	vertices;		/* its OID is looked up when first needed */
+	struct RemotePages *remote;	/* of a mesh over several servers, which has no tables; otherwise NULL */
 } MeshPages;
 
 extern Host *mesh_host_create(MemoryContext parent, Oid mesh, MeshAccess access);
+extern void mesh_pages_set_remote(const RemoteMeshes *functions);
+extern void mesh_pages_read_remote_header(MeshPages *pages, abacus_header *header);
 extern Oid	mesh_pages_vertex_table(MeshPages *pages);
 
 extern bool mesh_pages_any(MeshPages *pages, abacus_page_kind kind);

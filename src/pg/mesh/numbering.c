@@ -73,7 +73,7 @@ numbering_try_read(Host *host, const abacus_columns *columns, Numbering *numberi
 
 	MemSet(numbering, 0, sizeof(*numbering));
 	numbering->count = columns->attributes;
-	return !page_table_get(&mesh_pages(host)->simplices, numbering_key, &row) ||
+	return mesh_pages(host)->remote != NULL || !page_table_get(&mesh_pages(host)->simplices, numbering_key, &row) ||
 		decode(&row, numbering);
 }
 

@@ -22,7 +22,7 @@ reader_open(Oid mesh, MemoryContext memory)
 Reader *
 reader_open_of(Oid mesh, uint32 type, MemoryContext memory)
 {
-	Relation	table = mesh_table_open(mesh, MESH_READ);
+	Relation	table = mesh_table_open_to_read(mesh);
 	Reader	   *reader = MemoryContextAlloc(memory, sizeof(Reader));
 
 	reader->host = mesh_host_create(memory, mesh, MESH_READ);

@@ -250,6 +250,29 @@ generation_read_links(Oid relid, Generation *generation, ShardLinks *links)
 		connection_hold(links->connections[i]);
 }
 
+static char **
+copy_texts(char **texts, int count)
+{
+	char	  **copy = palloc(Max(1, count) * sizeof(char *));
+
+	for (int i = 0; i < count; i++)
+		copy[i] = pstrdup(texts[i]);
+	return copy;
+}
+
+/* A copy in the current memory context, to outlive the connection of SPI. */
+void
+generation_copy(Generation *to, const Generation *from)
+{
+	*to = *from;
+	to->source = from->source == NULL ? NULL : pstrdup(from->source);
+	to->token = pstrdup(from->token);
+	to->servers = copy_texts(from->servers, from->shards);
+	to->attributes = copy_texts(from->attributes, from->attribute_count);
+	to->borders = palloc(from->shards * sizeof(uint64));
+	memcpy(to->borders, from->borders, (from->shards - 1) * sizeof(uint64));
+}
+
 /* ---- To a row ------------------------------------------------------------------------------- */
 
 static Datum

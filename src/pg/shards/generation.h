@@ -44,6 +44,7 @@ typedef struct Generation
 extern bool generation_read(Oid relid, bool published, Generation *generation);
 extern bool generation_read_after(Oid relid, int64 number, Generation *generation);
 extern void generation_require_published(Oid relid, Generation *generation);
+extern void generation_copy(Generation *to, const Generation *from);
 extern void generation_read_links(Oid relid, Generation *generation, ShardLinks *links);
 extern void generation_insert(const Generation *generation);
 extern void generation_update(const Generation *generation);

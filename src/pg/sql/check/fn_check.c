@@ -17,7 +17,7 @@
 #include "pg/base/sql_function.h"
 #include "pg/mesh/numbering.h"
 #include "pg/shards/shard_check.h"
-#include "pg/shards/shard_read.h"
+#include "pg/remote/shard_read.h"
 #include "pg/sql/constrain/fixed_edges.h"
 #include "pg/sql/constrain/regions_fault.h"
 #include "pg/sql/rows/result.h"

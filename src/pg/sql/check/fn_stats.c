@@ -22,7 +22,7 @@
 #include "pg/mesh/mesh_cache.h"
 #include "pg/mesh/reader.h"
 #include "pg/shards/shard_check.h"
-#include "pg/shards/shard_read.h"
+#include "pg/remote/shard_read.h"
 #include "pg/sql/rows/result.h"
 
 SQL_FUNCTION(abacus_sql_stats);

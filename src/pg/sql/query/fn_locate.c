@@ -9,7 +9,6 @@
 #include "pg/base/sql_function.h"
 #include "pg/input/place.h"
 #include "pg/mesh/mesh_cache.h"
-#include "pg/shards/shard_read.h"
 #include "pg/sql/rows/simplex_row.h"
 
 SQL_FUNCTION(abacus_sql_locate);
@@ -30,8 +29,6 @@ abacus_sql_locate(PG_FUNCTION_ARGS)
 	abacus_simplex simplex;
 	abacus_status status;
 
-	if (is_over_shards(fcinfo))
-		return shard_read_place(fcinfo, PG_NARGS() - 1);
 	cached = mesh_cache_get(PG_GETARG_OID(0));
 	if (!place_arguments(fcinfo, PG_NARGS() - 1, &cached->header.facts.form, point))
 		PG_RETURN_NULL();		/* outside every hull */

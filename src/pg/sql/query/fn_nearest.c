@@ -14,7 +14,7 @@
 #include "pg/host/guard.h"
 #include "pg/input/place.h"
 #include "pg/mesh/mesh_cache.h"
-#include "pg/shards/shard_read.h"
+#include "pg/remote/shard_read.h"
 #include "pg/sql/arguments/places.h"
 #include "pg/sql/rows/answers.h"
 

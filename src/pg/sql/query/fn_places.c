@@ -9,7 +9,7 @@
 #include "pg/base/sql_function.h"
 #include "pg/host/guard.h"
 #include "pg/host/temp_room.h"
-#include "pg/shards/shard_read.h"
+#include "pg/remote/shard_read.h"
 #include "pg/sql/arguments/places.h"
 #include "pg/sql/rows/answers.h"
 #include "pg/sql/rows/result.h"

@@ -9,7 +9,7 @@
 #include "abacus/scan.h"
 #include "pg/base/settings.h"
 #include "pg/base/sql_function.h"
-#include "pg/shards/shard_read.h"
+#include "pg/remote/shard_read.h"
 #include "pg/sql/rows/faces.h"
 #include "pg/sql/rows/result.h"
 #include "pg/sql/rows/set.h"

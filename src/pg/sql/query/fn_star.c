@@ -10,7 +10,6 @@
 #include "pg/base/sql_function.h"
 #include "pg/input/place.h"
 #include "pg/mesh/mesh_cache.h"
-#include "pg/shards/shard_read.h"
 #include "pg/sql/rows/answers.h"
 #include "pg/sql/rows/simplex_row.h"
 
@@ -37,8 +36,6 @@ abacus_sql_star(PG_FUNCTION_ARGS)
 	CachedMesh *cached;
 	Answers		answers = {.set = (ReturnSetInfo *) fcinfo->resultinfo};
 
-	if (is_over_shards(fcinfo))
-		return shard_read_place_rows(fcinfo, PG_NARGS() - 1);
 	InitMaterializedSRF(fcinfo, 0);
 	cached = mesh_cache_get(PG_GETARG_OID(0));
 	answers.host = cached->host;

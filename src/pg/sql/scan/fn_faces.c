@@ -10,7 +10,7 @@
 #include "abacus/windows.h"
 #include "pg/base/settings.h"
 #include "pg/base/sql_function.h"
-#include "pg/shards/shard_read.h"
+#include "pg/remote/shard_read.h"
 #include "pg/sql/arguments/extent_arguments.h"
 #include "pg/sql/arguments/window.h"
 #include "pg/sql/constrain/fixed_edges.h"

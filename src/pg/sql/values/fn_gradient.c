@@ -12,7 +12,6 @@
 #include "pg/base/sql_function.h"
 #include "pg/input/place.h"
 #include "pg/mesh/mesh_cache.h"
-#include "pg/shards/shard_read.h"
 #include "pg/sql/arguments/extent_arguments.h"
 #include "pg/sql/arguments/interpolation.h"
 #include "pg/sql/arguments/units.h"
@@ -73,8 +72,6 @@ abacus_sql_gradient(PG_FUNCTION_ARGS)
 	double		gradient[ABACUS_MAX_DIMENSION];
 	int			count;
 
-	if (is_over_shards(fcinfo))
-		return shard_read_place(fcinfo, PG_NARGS() - HOW_ARGUMENTS - 1);
 	count = find_gradient(fcinfo, gradient);
 	if (count == 0)
 		PG_RETURN_NULL();
@@ -107,8 +104,6 @@ abacus_sql_slope(PG_FUNCTION_ARGS)
 	Datum		values[2];
 	bool		isnull[2] = {false, false};
 
-	if (is_over_shards(fcinfo))
-		return shard_read_place(fcinfo, PG_NARGS() - HOW_ARGUMENTS - 1);
 	require_plane(fcinfo);
 	if (find_gradient(fcinfo, gradient) == 0)
 		PG_RETURN_NULL();

@@ -14,7 +14,7 @@
 #include "pg/base/sql_function.h"
 #include "pg/input/place.h"
 #include "pg/mesh/mesh_cache.h"
-#include "pg/shards/shard_read.h"
+#include "pg/remote/shard_read.h"
 #include "pg/sql/arguments/extent_arguments.h"
 #include "pg/sql/arguments/interpolation.h"
 #include "pg/sql/arguments/places.h"
@@ -83,8 +83,6 @@ abacus_sql_interpolate(PG_FUNCTION_ARGS)
 
 	if (interpolation_of_null(fcinfo, first - 1))
 		PG_RETURN_NULL();
-	if (is_over_shards(fcinfo))
-		return shard_read_place(fcinfo, first - 1);
 	cached = mesh_cache_get(PG_GETARG_OID(0));
 	if (!PG_ARGISNULL(first + HOW_STEP))
 	{
@@ -122,7 +120,7 @@ abacus_sql_interpolate_places(PG_FUNCTION_ARGS)
 	abacus_interpolation how;
 	Answers		answers = {.set = (ReturnSetInfo *) fcinfo->resultinfo};
 
-	if (is_over_shards(fcinfo))
+	if (shard_can_answer(fcinfo))
 		return shard_read_places(fcinfo, true);
 	InitMaterializedSRF(fcinfo, 0);
 	if (interpolation_of_null(fcinfo, 1))

@@ -10,7 +10,7 @@
 #include "pg/host/guard.h"
 #include "pg/input/place.h"
 #include "pg/mesh/mesh_cache.h"
-#include "pg/shards/shard_read.h"
+#include "pg/remote/shard_read.h"
 #include "pg/sql/arguments/extent_arguments.h"
 #include "pg/sql/arguments/interpolation.h"
 #include "pg/sql/arguments/places.h"
@@ -46,8 +46,6 @@ abacus_sql_weights(PG_FUNCTION_ARGS)
 	size_t		count;
 	abacus_status status;
 
-	if (is_over_shards(fcinfo))
-		return shard_read_place_rows(fcinfo, given);
 	InitMaterializedSRF(fcinfo, 0);
 	if (interpolation_of_null(fcinfo, given))
 		PG_RETURN_NULL();
@@ -102,7 +100,7 @@ abacus_sql_weights_places(PG_FUNCTION_ARGS)
 	abacus_interpolation how = {.attributes = 0};
 	Answers		answers = {.set = (ReturnSetInfo *) fcinfo->resultinfo};
 
-	if (is_over_shards(fcinfo))
+	if (shard_can_answer(fcinfo))
 		return shard_read_places(fcinfo, false);
 	InitMaterializedSRF(fcinfo, 0);
 	if (interpolation_of_null(fcinfo, 1))

@@ -17,7 +17,7 @@
 #include "pg/input/place.h"
 #include "pg/input/source.h"
 #include "pg/mesh/mesh.h"
-#include "pg/shards/shard_read.h"
+#include "pg/remote/shard_read.h"
 #include "pg/shards/shard_sql.h"
 
 #define MOST_PLACES 8192

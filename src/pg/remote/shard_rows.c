@@ -13,15 +13,20 @@
 
 #include "pg/mesh/mesh.h"
 #include "pg/mesh/mesh_cache.h"
-#include "pg/shards/shard_call.h"
-#include "pg/shards/shard_read.h"
+#include "pg/remote/shard_call.h"
+#include "pg/remote/shard_read.h"
 #include "pg/shards/shard_sql.h"
 
 /* Whether a function's first argument is a mesh over several servers. */
 bool
 is_over_shards(FunctionCallInfo fcinfo)
 {
-	return !PG_ARGISNULL(0) && mesh_cache_peek(PG_GETARG_OID(0)) == NULL && mesh_is_sharded(PG_GETARG_OID(0));
+	const CachedMesh *cached;
+
+	if (PG_ARGISNULL(0))
+		return false;
+	cached = mesh_cache_peek(PG_GETARG_OID(0));
+	return cached == NULL ? mesh_is_sharded(PG_GETARG_OID(0)) : mesh_pages(cached->host)->remote != NULL;
 }
 
 typedef struct RowsRead

@@ -10,5 +10,6 @@
 
 extern char *shard_call(FunctionCallInfo fcinfo, const char *mesh, int replaced, const char *const *replacements);
 extern bool shard_call_has_text(FunctionCallInfo fcinfo, const char *name, const char *value);
+extern bool shard_call_has_null(FunctionCallInfo fcinfo, const char *name);
 
 #endif

@@ -10,17 +10,13 @@
  */
 #include "postgres.h"
 
-#include "catalog/pg_type.h"
 #include "executor/spi.h"
 #include "funcapi.h"
 #include "utils/builtins.h"
-#include "utils/lsyscache.h"
 
-#include "pg/input/place.h"
 #include "pg/input/source.h"
-#include "pg/mesh/mesh.h"
-#include "pg/shards/shard_call.h"
-#include "pg/shards/shard_read.h"
+#include "pg/remote/shard_call.h"
+#include "pg/remote/shard_read.h"
 #include "pg/shards/shard_sql.h"
 
 /* ---- Places --------------------------------------------------------------------------------- */
@@ -33,9 +29,7 @@ typedef struct PlacesAsked
 {
 	FunctionCallInfo fcinfo;
 	Generation	generation;
-	int			coordinates;	/* given as arguments, of one place; 0: the places of a query */
-	TupleDesc	desc;			/* of the rows that the servers return, after the number of the place */
-	TupleDesc	columns;		/* of these rows */
+	TupleDesc	columns;		/* of the rows that servers return */
 	int			count;
 	int64	   *ids;
 	double	   *points;
@@ -43,11 +37,8 @@ typedef struct PlacesAsked
 	int		   *settled;		/* which shard has answered */
 	StringInfoData *asked;		/* for each shard: numbers, */
 	StringInfoData *asked_points;	/* and coordinates of the places that it is asked for */
-	void		(*put) (struct PlacesAsked *asked, int place, HeapTuple row, TupleDesc desc);
 	void		(*put_outside) (struct PlacesAsked *asked, int place);
-	ReturnSetInfo *set;			/* NULL: a single value */
-	Datum		value;
-	bool		has_value;
+	ReturnSetInfo *set;
 } PlacesAsked;
 
 static void
@@ -95,15 +86,25 @@ places_query(PlacesAsked *asked, int shard)
 	char	   *mesh = generation_mesh(generation, shard);
 	char	   *settled = psprintf("abacus_shard_settled('%s', %s, '%s}'::bigint[], '%s}'::double precision[])", mesh,
 								   shard_sql_stretch(generation, shard), asked->asked[shard].data, asked->asked_points[shard].data);
-	const char *const place[] = {"p.x", "p.y", "p.z"};
-	char	   *inner;
+	const char *inner = quote_literal_cstr(psprintf("SELECT id, x, y%s FROM %s", dimension == 2 ? "" : ", z", settled));
 
-	if (asked->coordinates > 0)
-		return psprintf("SELECT p.id AS place, r.* FROM %s AS p LEFT JOIN LATERAL (SELECT true AS found, f.* FROM %s AS f) "
-						"AS r ON true", settled, shard_call(asked->fcinfo, mesh, dimension, place));
-	inner = quote_literal_cstr(psprintf("SELECT id, x, y%s FROM %s", dimension == 2 ? "" : ", z", settled));
-	return psprintf("SELECT r.id AS place, true AS found, r.* FROM %s AS r",
-					shard_call(asked->fcinfo, mesh, 1, (const char *const *) &inner));
+	return psprintf("SELECT r.* FROM %s AS r", shard_call(asked->fcinfo, mesh, 1, &inner));
+}
+
+/* Adds a row to the result, for which a server has the number of the place. */
+static void
+put_row(PlacesAsked *asked, int place, HeapTuple row, TupleDesc desc)
+{
+	int			count = asked->set->setDesc->natts;
+	Datum	   *values = palloc(count * sizeof(Datum));
+	bool	   *nulls = palloc(count * sizeof(bool));
+
+	for (int i = 0; i < count; i++)
+		values[i] = heap_getattr(row, 1 + i, desc, &nulls[i]);
+	values[0] = Int64GetDatum(asked->ids[place]);
+	tuplestore_putvalues(asked->set->setResult, asked->set->setDesc, values, nulls);
+	pfree(values);
+	pfree(nulls);
 }
 
 static void
@@ -111,7 +112,6 @@ take_answers(PlacesAsked *asked, int shard, const LinkRows *rows)
 {
 	for (uint64 i = 0; i < rows->count; i++)
 	{
-		bool		not_found;
 		int64		place = DatumGetInt64(link_value(rows, i, 1));
 
 		if (place < 0 || place >= asked->count)
@@ -119,9 +119,7 @@ take_answers(PlacesAsked *asked, int shard, const LinkRows *rows)
 		if (asked->settled[place] != NOT_SETTLED && asked->settled[place] != shard)
 			continue;			/* another one has given the same answer */
 		asked->settled[place] = shard;
-		(void) link_value_or_null(rows, i, 2, &not_found);
-		if (!not_found)
-			asked->put(asked, (int) place, rows->rows[i], rows->desc);
+		put_row(asked, (int) place, rows->rows[i], rows->desc);
 	}
 }
 
@@ -202,131 +200,23 @@ put_nothing(PlacesAsked *asked, int place)
 {
 }
 
-/* Arguments that only a mesh on one server takes. */
-static void
-refuse_methods(FunctionCallInfo fcinfo)
+/*
+ * Whether servers can answer: they know the simplices around a place, from which linear values inside the
+ * mesh follow. For others the coordinator reads their pages.
+ */
+bool
+shard_can_answer(FunctionCallInfo fcinfo)
 {
-	if (!shard_call_has_text(fcinfo, "method", "linear") || !shard_call_has_text(fcinfo, "outside", "null"))
-		ereport(ERROR,
-				(errcode(ERRCODE_FEATURE_NOT_SUPPORTED),
-				 errmsg("mesh \"%s\" lies on several servers, where values are linear, and NULL outside",
-						get_rel_name(PG_GETARG_OID(0))),
-				 errhint("Leave method and outside out.")));
+	return is_over_shards(fcinfo) && shard_call_has_text(fcinfo, "method", "linear") &&
+		shard_call_has_text(fcinfo, "outside", "null") && shard_call_has_null(fcinfo, "step");
 }
 
 static void
 open_places(PlacesAsked *asked, FunctionCallInfo fcinfo, ShardLinks *links)
 {
 	asked->fcinfo = fcinfo;
-	refuse_methods(fcinfo);
 	generation_read_links(PG_GETARG_OID(0), &asked->generation, links);
 	begin_places(asked);
-}
-
-/* ---- One place ------------------------------------------------------------------------------ */
-
-static bool
-place_of_arguments(PlacesAsked *asked, FunctionCallInfo fcinfo, int coordinates)
-{
-	bool		finite = place_arguments(fcinfo, coordinates, &asked->generation.form, asked->points);
-
-	asked->coordinates = coordinates;
-	asked->ids[0] = 0;
-	asked->count = finite ? 1 : 0;
-	return finite;
-}
-
-/* A single value, or a composite one: the columns of the row behind the first two. */
-static void
-keep_value(PlacesAsked *asked, int place, HeapTuple row, TupleDesc desc)
-{
-	bool		isnull;
-	Datum		values[MaxTupleAttributeNumber];
-	bool		nulls[MaxTupleAttributeNumber];
-
-	if (asked->desc == NULL)
-	{
-		values[0] = SPI_getbinval(row, desc, 3, &isnull);
-		asked->has_value = !isnull;
-		if (!isnull)
-			asked->value = SPI_datumTransfer(values[0], TupleDescAttr(desc, 2)->attbyval, TupleDescAttr(desc, 2)->attlen);
-	}
-	else
-	{
-		bool		any = false;
-
-		for (int i = 0; i < asked->desc->natts; i++)
-		{
-			values[i] = SPI_getbinval(row, desc, 3 + i, &nulls[i]);
-			any |= !nulls[i];
-		}
-		asked->has_value = any;
-		if (any)
-			asked->value = SPI_datumTransfer(HeapTupleGetDatum(heap_form_tuple(BlessTupleDesc(asked->desc), values, nulls)),
-											 false, -1);
-	}
-}
-
-/* The value of a function of a place; NULL outside. */
-Datum
-shard_read_place(FunctionCallInfo fcinfo, int coordinates)
-{
-	PlacesAsked asked = {.put = keep_value,.put_outside = put_nothing};
-	ShardLinks	links;
-	Oid			type;
-
-	for (int i = 0; i <= coordinates; i++)
-		if (PG_ARGISNULL(i))
-			PG_RETURN_NULL();
-	SPI_connect();
-	open_places(&asked, fcinfo, &links);
-	if (get_call_result_type(fcinfo, &type, &asked.desc) != TYPEFUNC_COMPOSITE)
-		asked.desc = NULL;
-	asked.columns = asked.desc == NULL ? link_columns(3, (Oid[]) {INT8OID, BOOLOID, type}, NULL)
-		: link_columns(2, (Oid[]) {INT8OID, BOOLOID}, asked.desc);
-	if (place_of_arguments(&asked, fcinfo, coordinates))
-		answer_places(&asked, &links);
-	SPI_finish();
-	if (!asked.has_value)
-		PG_RETURN_NULL();
-	PG_RETURN_DATUM(asked.value);
-}
-
-/* Adds a row to the result: the columns behind the first two. */
-static void
-put_row(PlacesAsked *asked, int place, HeapTuple row, TupleDesc desc)
-{
-	int			count = asked->set->setDesc->natts;
-	Datum	   *values = palloc(count * sizeof(Datum));
-	bool	   *nulls = palloc(count * sizeof(bool));
-
-	for (int i = 0; i < count; i++)
-		values[i] = SPI_getbinval(row, desc, 3 + i, &nulls[i]);
-	if (asked->coordinates == 0)
-		values[0] = Int64GetDatum(asked->ids[place]);
-	tuplestore_putvalues(asked->set->setResult, asked->set->setDesc, values, nulls);
-	pfree(values);
-	pfree(nulls);
-}
-
-/* The rows of a function of a place. */
-Datum
-shard_read_place_rows(FunctionCallInfo fcinfo, int coordinates)
-{
-	PlacesAsked asked = {.put = put_row,.put_outside = put_nothing,.set = (ReturnSetInfo *) fcinfo->resultinfo};
-	ShardLinks	links;
-
-	InitMaterializedSRF(fcinfo, 0);
-	for (int i = 0; i <= coordinates; i++)
-		if (PG_ARGISNULL(i))
-			PG_RETURN_NULL();
-	SPI_connect();
-	open_places(&asked, fcinfo, &links);
-	asked.columns = link_columns(2, (Oid[]) {INT8OID, BOOLOID}, asked.set->setDesc);
-	if (place_of_arguments(&asked, fcinfo, coordinates))
-		answer_places(&asked, &links);
-	SPI_finish();
-	PG_RETURN_NULL();
 }
 
 /* ---- The places of a query ------------------------------------------------------------------ */
@@ -385,7 +275,7 @@ Datum
 shard_read_places(FunctionCallInfo fcinfo, bool has_row_outside)
 {
 	PlacesAsked asked = {
-		.put = put_row,.put_outside = has_row_outside ? put_bare_id : put_nothing,
+		.put_outside = has_row_outside ? put_bare_id : put_nothing,
 		.set = (ReturnSetInfo *) fcinfo->resultinfo
 	};
 	QueryRead	read = {&asked};
@@ -397,7 +287,7 @@ shard_read_places(FunctionCallInfo fcinfo, bool has_row_outside)
 	source_prepare(&read.source, text_to_cstring(PG_GETARG_TEXT_PP(1)));
 	open_places(&asked, fcinfo, &links);
 	read.facts.form = asked.generation.form;
-	asked.columns = link_columns(2, (Oid[]) {INT8OID, BOOLOID}, asked.set->setDesc);
+	asked.columns = link_columns(0, NULL, asked.set->setDesc);
 	answer_query(&read, &links);
 	source_finish(&read.source);
 	PG_RETURN_NULL();

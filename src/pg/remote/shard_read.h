@@ -18,8 +18,7 @@ typedef enum ShardRows
 
 extern bool is_over_shards(FunctionCallInfo fcinfo);
 extern Datum shard_read_rows(FunctionCallInfo fcinfo, ShardRows rows);
-extern Datum shard_read_place(FunctionCallInfo fcinfo, int coordinates);
-extern Datum shard_read_place_rows(FunctionCallInfo fcinfo, int coordinates);
+extern bool shard_can_answer(FunctionCallInfo fcinfo);
 extern Datum shard_read_places(FunctionCallInfo fcinfo, bool has_row_outside);
 extern Datum shard_read_nearest(FunctionCallInfo fcinfo, int coordinates);
 extern Datum shard_read_nearest_places(FunctionCallInfo fcinfo);

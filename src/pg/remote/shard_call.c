@@ -14,7 +14,7 @@
 #include "utils/lsyscache.h"
 #include "utils/syscache.h"
 
-#include "pg/shards/shard_call.h"
+#include "pg/remote/shard_call.h"
 
 static char *
 argument_literal(FunctionCallInfo fcinfo, int i)
@@ -59,25 +59,41 @@ shard_call(FunctionCallInfo fcinfo, const char *mesh, int replaced, const char *
 	return call.data;
 }
 
-/* Whether the argument with this name is this text, or NULL, or the function has no such argument. */
-bool
-shard_call_has_text(FunctionCallInfo fcinfo, const char *name, const char *value)
+/* The number of the argument with this name, from 0; -1 if the function has none or it is NULL. */
+static int
+find_argument(FunctionCallInfo fcinfo, const char *name)
 {
 	HeapTuple	tuple = SearchSysCache1(PROCOID, ObjectIdGetDatum(fcinfo->flinfo->fn_oid));
 	Oid		   *types;
 	char	  **names;
 	char	   *modes;
 	int			count = get_func_arg_info(tuple, &types, &names, &modes);
-	bool		has = true;
+	int			found = -1;
 
 	for (int i = 0, input = 0; i < count && names != NULL; i++)
 	{
 		if (modes != NULL && modes[i] != PROARGMODE_IN)
 			continue;
 		if (strcmp(names[i], name) == 0 && !PG_ARGISNULL(input))
-			has = strcmp(TextDatumGetCString(PG_GETARG_DATUM(input)), value) == 0;
+			found = input;
 		input++;
 	}
 	ReleaseSysCache(tuple);
-	return has;
+	return found;
+}
+
+/* Whether the argument with this name is this text, or NULL, or the function has no such argument. */
+bool
+shard_call_has_text(FunctionCallInfo fcinfo, const char *name, const char *value)
+{
+	int			argument = find_argument(fcinfo, name);
+
+	return argument < 0 || strcmp(TextDatumGetCString(PG_GETARG_DATUM(argument)), value) == 0;
+}
+
+/* Whether the argument with this name is NULL, or the function has no such argument. */
+bool
+shard_call_has_null(FunctionCallInfo fcinfo, const char *name)
+{
+	return find_argument(fcinfo, name) < 0;
 }
