@@ -38,7 +38,7 @@ sub build
 sub same
 {
 	my ($what, @calls) = @_;
-	my ($script, $out, $err) = ('', '', '');
+	my ($script, $out, $err) = ($what =~ /work_mem/ ? "SET work_mem = '64kB';\n" : '', '', '');
 	for my $n (0 .. $#calls)
 	{
 		(my $many = $calls[$n]) =~ s/MESH/'many'/g;
@@ -144,6 +144,8 @@ for my $rows ('SELECT code, v0, v1, v2, h FROM %s_cells', 'SELECT code, v0 FROM 
 	my ($a, $b) = (sprintf($rows, 'many'), sprintf($rows, 'one'));
 	is($node->safe_psql('postgres', "SELECT (SELECT count(*) FROM ($a EXCEPT ALL $b) AS x), (SELECT count(*) FROM ($b EXCEPT ALL $a) AS y), (SELECT count(*) > 0 FROM ($b) AS z)"), '0|0|t', $rows);
 }
+same('pages that make room for others, work_mem 64 kB', map { $_, $_ } "abacus_contours(MESH, 40, attribute => 'h')", "abacus_edges(MESH, '{0.2,0.2}'::float8[], '{0.8,0.7}'::float8[])",
+	"(SELECT i, abacus_interpolate(MESH, (i * 0.618) % 1, (i * 0.414) % 1, 'h', method => 'natural') FROM generate_series(1, 300) AS i)");
 is($node->safe_psql('postgres', "SELECT abacus_unpublish('many') = abacus_unpublish('one')"), 't', 'unpublished');
 
 sub fails

@@ -11,6 +11,8 @@
 #include "pg/remote/page_shelf.h"
 
 #define FIRST_ROOM 64
+/* A page that has come stays while an eighth of the room gets other pages: the hand passes it twice. */
+#define FRESH 2
 /* No page is found by its location: looking into the shelf is as quick. */
 #define REMOTE_LOCATION 1
 
@@ -69,7 +71,7 @@ shelf_find(PageShelf *shelf, const abacus_key *key)
 
 	if (i < 0 || key_compare(key, &shelf->pages[i].upper) >= 0)
 		return NULL;
-	shelf->pages[i].is_used = true;
+	shelf->pages[i].uses = Max(shelf->pages[i].uses, 1);
 	return &shelf->pages[i];
 }
 
@@ -89,8 +91,8 @@ make_room(PageShelf *shelf, size_t size)
 	{
 		if (shelf->hand >= shelf->count)
 			shelf->hand = 0;
-		if (shelf->pages[shelf->hand].is_used)
-			shelf->pages[shelf->hand++].is_used = false;
+		if (shelf->pages[shelf->hand].uses > 0)
+			shelf->pages[shelf->hand++].uses--;
 		else
 			remove_page(shelf, shelf->hand);
 	}
@@ -119,8 +121,10 @@ shelf_put(PageShelf *shelf, const abacus_key *key, const abacus_key *upper, cons
 	page = shelf->pages + i;
 	memmove(page + 1, page, (shelf->count - i) * sizeof(ShelfPage));
 	*page = (ShelfPage) {
-		.page = {*key, copy, size, REMOTE_LOCATION},.upper = *upper,.is_used = true
+		.page = {*key, copy, size, REMOTE_LOCATION},.upper = *upper,.uses = FRESH
 	};
+	if (i <= shelf->hand)
+		shelf->hand++;
 	shelf->count++;
 	shelf->bytes += size;
 }

@@ -13,7 +13,7 @@ typedef struct ShelfPage
 {
 	abacus_page page;
 	abacus_key	upper;
-	bool		is_used;		/* since the hand came by */
+	uint8		uses;			/* the hand passes it so often before it has to go */
 } ShelfPage;
 
 /* In the order of their keys; two never own the same key. */

@@ -27,7 +27,7 @@
 /* Bytes of pages to ask for: at random places, and at most, as a share of what is kept. */
 #define FEW_BYTES (4 * ABACUS_PAGE_BYTES)
 #define MOST_SHARE 8
-#define LEAST_KEPT ((size_t) 1 << 20)
+#define LEAST_KEPT (MOST_SHARE * FEW_BYTES)
 
 /* Columns of what servers return */
 enum
@@ -133,7 +133,7 @@ ask_for_pages(RemotePages *remote, abacus_page_kind kind, const abacus_key *key)
 	Arrival    *arrival = palloc(sizeof(Arrival));
 
 	pages->ahead = key_compare(key, &pages->expected) == 0
-		? Min(2 * pages->ahead, pages->shelf.most / MOST_SHARE) : FEW_BYTES;
+		? Max(FEW_BYTES, Min(2 * pages->ahead, pages->shelf.most / MOST_SHARE)) : FEW_BYTES;
 	*arrival = (Arrival) {
 		.remote = remote,.shelf = &pages->shelf,.shard = shard
 	};
