@@ -37,7 +37,7 @@ short_sets="wheel octree duplicates"
 # Each suite and its command, in the order in which they begin, each as soon as its needs have passed.
 suites=(format layout build-extension build tap build-benchmarks build-sanitized build-threads
     postgresql-17 postgresql-18 viewer unit-sanitized unit-threads unit acceptance unit-apart oracles pgtap
-    regress isolation docs model model-lines model-track fuzz reports acceptance-goose oracles-large viewer-large tidy bench evaluation)
+    regress isolation docs model model-lines model-track fuzz reports acceptance-goose oracles-large viewer-large tidy bench evaluation demo-shards)
 declare -A command=(
     [format]=format_check
     [layout]=layout_check
@@ -68,6 +68,7 @@ declare -A command=(
     [model-track]="scripts/model_test.sh track -t 20"
     [reports]=report_tests
     [bench]="scripts/bench.sh smoke"
+    [demo-shards]="scripts/demo_shards.sh quick"
     [evaluation]="scripts/evaluation.sh smoke"
     [postgresql-17]="scripts/test.sh --postgresql 17 short"
     [postgresql-18]="scripts/test.sh --postgresql 18 short"

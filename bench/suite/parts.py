@@ -16,6 +16,7 @@ from octrees import Octrees
 from rasters import Raster
 from regions import Regions
 from rows import Rows
+from sharded import Sharded
 from shares import Shares
 from shared_reading import SharedLoading, SharedReading
 from surfaces import Surfaces
@@ -97,6 +98,9 @@ PARTS = [
         {"full": (1000000, 10000000), "quick": (100000, 1000000), "smoke": (5000,)}).measure),
     Part("shares", "a mesh cut for the ranks of a parallel program, beside METIS; shares, and steps of a solution", 3, Shares(
         {"full": 0.25, "quick": 0.1, "smoke": 0.02}).measure),
+    Part("shards", "one mesh over four databases beside one in a single database: processor time, and what travels", 6, Sharded(
+        {"full": ((2, 1000000), (2, 10000000), (3, 1000000)), "quick": ((2, 200000), (3, 50000)), "smoke": ((2, 5000), (3, 2000))},
+        {"full": 1, "quick": 1, "smoke": 1}).measure),
     Part("carried", "windows of a foreign table, tiles of web maps, facets with markers, files", 5, Carried(
         {"full": (1000000, 800000), "quick": (100000, 50000), "smoke": (5000, 500)}, FEWER).measure),
     Part("octree", "octrees of points: made, balanced, extracted, asked, beside p4est", 8, Octrees(

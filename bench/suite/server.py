@@ -74,9 +74,10 @@ class MemoryWatch:
                 break
 
 
-def query(sql):
+def query(sql, database=None):
     """What a statement in a session of its own prints."""
-    done = subprocess.run(["psql", "-X", "-q", "-A", "-t", "-v", "ON_ERROR_STOP=1", "-c", sql],
+    there = ["-d", database] if database else []
+    done = subprocess.run(["psql", "-X", "-q", "-A", "-t", "-v", "ON_ERROR_STOP=1", *there, "-c", sql],
                           text=True, capture_output=True)
     if done.returncode != 0:
         raise Failure(f"{sql}\n{done.stderr}")

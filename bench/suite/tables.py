@@ -94,6 +94,21 @@ def shares(results):
     return table(("what", "", "wall", "CPU", "values a second of CPU", "facets between parts", "runs"), rows)
 
 
+def sharded(results):
+    """One mesh over several servers, beside one server, with the ratios of processor time: of all, and of the slowest server."""
+    rows, alone = [], {}
+    for m in results.all(what="sharded"):
+        cpu, what = statistics.median(values(m, "cpu")), mesh_name(m)
+        if m["shards"] == 1:
+            alone[what] = cpu
+        sent, slowest, rounds = (values(m, figure) for figure in ("sent", "slowest", "rounds"))
+        rows.append((what, m["source"], f"{number(cpu)} s", number(ratio(cpu, alone.get(what))) if sent else "–",
+                     number(ratio(statistics.median(slowest), alone.get(what))) if sent else "–",
+                     f"{statistics.median(rounds)}" if sent else "–", f"{sent[-1]:,}" if sent else "–",
+                     f"{100 * sent[-1] / m['points']:.2f} %" if sent else "–", len(m["samples"])))
+    return table(("", "source", "CPU", "÷ one server", "slowest server ÷ one", "rounds", "vertices sent", "of all points", "runs"), rows)
+
+
 def rate(measurement):
     """Megabytes of a file a second of elapsed time."""
     return statistics.median(sample["bytes"] / sample["wall"] for sample in measurement["samples"]) / 1e6

@@ -115,10 +115,19 @@ require_extent(const Staging *staging, const double *point)
 					 errdetail("Its %c is %.17g.", "xyz"[i], point[i])));
 }
 
+/* Adds the records from `begin` up to `end`. */
+static void
+add_run(Staging *staging, const uint64 *begin, const uint64 *end)
+{
+	if (begin < end)
+		change_add(staging->change, begin, (size_t) (end - begin) / staging->words);
+}
+
 static void
 stage_records(void *context, bool is_sorted_out, const uint64 *records, size_t count)
 {
 	Staging    *staging = context;
+	const uint64 *run = records;	/* of own points */
 
 	for (size_t i = 0; i < count; i++)
 	{
@@ -128,13 +137,16 @@ stage_records(void *context, bool is_sorted_out, const uint64 *records, size_t c
 		if (owner_of_point(&staging->owners, point) == staging->own)
 		{
 			require_extent(staging, point);
-			change_add(staging->change, record, 1);
+			continue;
 		}
-		else if (is_sorted_out)
+		if (is_sorted_out)
 			ereport(ERROR,
 					(errcode(ERRCODE_DATA_CORRUPTED),
 					 errmsg("a point has come to a shard that does not own it")));
+		add_run(staging, run, record);
+		run = record + staging->words;
 	}
+	add_run(staging, run, records + count * staging->words);
 }
 
 /*
