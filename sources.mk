@@ -5,6 +5,7 @@
 # in unit `exact`, since their headers take six seconds to read.
 CORE.exact += src/geometry/ball.cpp
 CORE.exact += src/geometry/circumradius.cpp
+CORE.exact += src/geometry/common_portions.cpp
 CORE.exact += src/geometry/contact.cpp
 CORE.exact += src/geometry/crossing.cpp
 CORE.exact += src/geometry/cutting_plane.cpp

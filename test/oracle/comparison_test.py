@@ -181,6 +181,24 @@ class Comparison(unittest.TestCase):
         line = numpy.column_stack([random.random(12), random.random(12) * 1e-15])
         self.every_way([make("cmp_line", line, random.random(12)), make("cmp_thin", grid(2, 2, 1.0, -0.5), random.random(4))], [None])
 
+    def test_slanting_slivers(self):
+        """All simplices of both meshes are flat, along no axis: nothing is left of their sizes in doubles."""
+        random = numpy.random.default_rng(6)
+        for dimension, n in (2, 12), (3, 8):
+            meshes = []
+            for name, off in (("cmp_bent", 1e-16), ("cmp_crossing", 3e-16), ("cmp_level", 1e-13)):
+                points = numpy.repeat(random.random((n, 1)), dimension, axis=1)
+                points[:, :dimension - 1] = random.random((n, dimension - 1))
+                points[:, -1] = points[:, :-1].sum(axis=1) + random.random(n) * off * 4
+                meshes.append(make(name, points, random.random(n) * 1000))
+            self.every_way(meshes, [None, [(0.25, 0.5)] * dimension])
+            for first, second in itertools.permutations(meshes if dimension == 2 else (), 2):
+                found = pieces(first, second, None)
+                halves = {sign: sum(abs(volume(half) * sum(c[2] for c in half) / 3) for part in found
+                                    for half in cut([part], lambda p: sign * p[2])) for sign in (1, -1)}
+                row = abacus.numbers(f"SELECT area, cut, fill FROM abacus_volume('{first.name}', '{second.name}')")[0]
+                numpy.testing.assert_allclose(row, [float(sum(map(abs, map(volume, found)))), float(halves[1]), float(halves[-1])], rtol=1e-9)
+
     def test_thinned(self):
         """A mesh and a thinned one of it: they share vertices, edges and facets."""
         for dimension, n in (2, 7), (3, 3):

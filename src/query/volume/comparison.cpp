@@ -6,28 +6,6 @@ namespace abacus {
 
 namespace {
 
-template <int D> double integral(const Piece<D> &piece) { return measure(piece) * mean(piece); }
-
-/// Of the square of a linear function.
-template <int D> double integral_of_square(const Piece<D> &piece) {
-    double sum = 0, squares = 0;
-    for (const double value : piece.value) {
-        sum += value;
-        squares += value * value;
-    }
-    return measure(piece) * ((squares + sum * sum) / ((D + 1) * (D + 2)));
-}
-
-/// Calls visit(piece) for pieces that make up a piece, in each of which the values have one sign.
-template <int D, class Visit> void each_of_one_sign(const Piece<D> &piece, Visit visit) {
-    const auto [least, greatest] = std::minmax_element(piece.value.begin(), piece.value.end());
-    if (*least >= 0 || *greatest <= 0) return visit(piece);
-    Sides<D> turned;
-    for (int i = 0; i <= D; ++i) turned[i] = -piece.value[i];
-    clip<D>(piece, piece.value, visit);
-    clip<D>(piece, turned, visit);
-}
-
 ScaledNumber quotient(const ScaledNumber &a, const ScaledNumber &b) {
     return {a.value / b.value, a.exponent - b.exponent};
 }
@@ -45,20 +23,21 @@ double root(ScaledNumber number) {
 template <int D>
 void Comparison<D>::add(const ValuedSimplex<D> &first, const ValuedSimplex<D> &second,
                         const Box<D> &window, const abacus_extent &extent) {
-    const Polygon *polygon = nullptr;
-    if constexpr (D == 2) polygon = polygon_of(extent);
-    greatest_.add(first.as_it_is(), second.as_it_is(), window, polygon);
-    each_common_piece(first, second, window, extent,
-                      [&](const Piece<D> &piece, const NearFrame<D> &frame) { add(piece, frame); });
+    greatest_.add(first.as_it_is(), second.as_it_is(), window, polygon_in<D>(extent));
+    portions_.each(first, second, window, extent, [&](const Portion<D> &portion) { add(portion); });
 }
 
-template <int D> void Comparison<D>::add(const Piece<D> &piece, const NearFrame<D> &frame) {
-    const int sizes = frame.of_measures(), values = frame.of_values();
-    size_.add(measure(piece), sizes);
-    sum_.add(integral(piece), sizes + values);
-    squares_.add(integral_of_square(piece), sizes + 2 * values);
-    each_of_one_sign(piece, [&](const Piece<D> &part) {
-        absolute_.add(std::fabs(integral(part)), sizes + values);
+template <int D> void Comparison<D>::add(const Portion<D> &portion) {
+    const auto add = [](WideSum &sum, const ScaledNumber &number) {
+        sum.add(number.value, number.exponent);
+    };
+    add(size_, portion.size());
+    add(sum_, portion.integral());
+    add(squares_, portion.integral_of_square());
+    each_of_one_sign<D>(portion, [&](const Portion<D> &part) {
+        ScaledNumber integral = part.integral();
+        integral.value = std::fabs(integral.value);
+        add(absolute_, integral);
     });
 }
 
@@ -80,12 +59,15 @@ template <int D>
 abacus_comparison compare(const Host &host, const abacus_facts &facts,
                           const abacus_surface &surface, const OtherMesh &other) {
     const Box<D> window = box_of<D>(surface.window);
-    Comparison<D> comparison;
-    each_overlap<D>(host, facts, surface, other,
-                    [&](const ValuedSimplex<D> &first, const ValuedSimplex<D> &second) {
-                        comparison.add(first, second, window, surface.extent);
-                    });
-    return comparison.result();
+    for (const bool is_exact : {false, true}) {
+        Comparison<D> comparison(is_exact);
+        each_overlap<D>(host, facts, surface, other,
+                        [&](const ValuedSimplex<D> &first, const ValuedSimplex<D> &second) {
+                            comparison.add(first, second, window, surface.extent);
+                        });
+        if (comparison.is_sure()) return comparison.result();
+    }
+    return {}; // not reached
 }
 
 template class Comparison<2>;

@@ -13,16 +13,18 @@ namespace abacus {
 
 template <int D> class Comparison {
 public:
+    explicit Comparison(bool is_exact) : portions_(is_exact) {}
     /// Simplices that overlap, as far as they are in a window.
     void add(const ValuedSimplex<D> &first, const ValuedSimplex<D> &second, const Box<D> &window,
              const abacus_extent &extent);
+    bool is_sure() const { return portions_.is_sure(); }
     abacus_comparison result() const;
 
 private:
-    /// A piece, whose values are differences, seen in a frame.
-    void add(const Piece<D> &piece, const NearFrame<D> &frame);
+    void add(const Portion<D> &portion);
 
     GreatestDifference<D> greatest_;
+    CommonPortions<D> portions_;
     WideSum size_, sum_, absolute_, squares_;
 };
 

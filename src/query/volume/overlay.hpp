@@ -1,9 +1,11 @@
 // The pieces of two meshes where both have a surface, or a function in space.
 //
 // Simplices of the one are cut at the facets of those of the other that they overlap. In each piece
-// both functions are linear.
+// both functions are linear. That is done in doubles where errors of rounding are small beside the
+// whole; otherwise, for flat simplices, in rational numbers.
 #pragma once
 
+#include "geometry/common_portions.hpp"
 #include "query/volume/near_frame.hpp"
 #include "query/volume/overlaps.hpp"
 #include "query/volume/valued_simplex.hpp"
@@ -105,30 +107,79 @@ template <int D> bool is_cut(const ValuedSimplex<D> &first, const ValuedSimplex<
     return a.value < b.value || (a.value == b.value && first.corner <= second.corner);
 }
 
-/// Calls visit(piece, frame) for the pieces of two simplices in a window; its values are those of
-/// the first less those of the second, and all is seen in the frame.
-template <int D, class Visit>
-void each_common_piece(const ValuedSimplex<D> &first, const ValuedSimplex<D> &second,
-                       const Box<D> &window, const abacus_extent &extent, Visit visit) {
-    const bool is_first_cut = is_cut(first, second);
-    const ValuedSimplex<D> &cut = is_first_cut ? first : second,
-                           &other = is_first_cut ? second : first;
-    const NearFrame<D> frame(cut, other);
-    const Facets<D> facets(other, frame);
-    const std::array<double, D + 1> values = frame.into(other).value;
-    const auto show = [&](const Piece<D> &piece) {
-        if (polygon_of(extent) == nullptr) return visit(piece, frame);
-        clip_polygon(cut, frame.out(piece), extent,
-                     [&](const Piece<D> &part) { visit(frame.in(part), frame); });
-    };
-    facets.clip(frame.into(cut), [&](Piece<D> piece) {
-        for (int i = 0; i <= D; ++i) {
-            const double value = facets.value_at(piece.corner[i], values);
-            piece.value[i] = is_first_cut ? piece.value[i] - value : value - piece.value[i];
-        }
-        clip_box<D>(piece, frame.into(window), show);
-    });
+/// How far a simplex cut at the facets of another one may be off in doubles, in all its parts: both
+/// are seen in a frame near the first. A facet is off its place by a few roundings of the greater
+/// length, and values by as many as the other simplex is flat.
+template <int D> double rounding_error(const Piece<D> &cut, const Piece<D> &other) {
+    constexpr double roundings = 0x1p-50;
+    double length = 1; // of the one that is cut, and more
+    for (const Point<D> &p : other.corner)
+        for (int axis = 0; axis < D; ++axis)
+            length = std::max(length, std::fabs(p[axis] - other.corner[0][axis]));
+    double power = length;
+    for (int i = 1; i < D; ++i) power *= length;
+    const double error = std::max(length, measure(cut) * (power / measure(other))) * roundings;
+    return error >= 0 ? error : std::numeric_limits<double>::infinity();
 }
+
+/// The portions that pairs of simplices have in common. At first they are computed in doubles, and
+/// the errors are summed with the sizes. If these do not leave nine digits, as among simplices that
+/// are all flat, everything is done again, and portions of flat simplices are computed exactly.
+template <int D> class CommonPortions {
+public:
+    explicit CommonPortions(bool is_exact) : is_exact_(is_exact) {}
+
+    /// Whether nothing is left to be done again.
+    bool is_sure() const { return is_exact_ || !(size_ < error_.times(std::uint32_t{1} << 30)); }
+
+    /// Calls visit(portion) for the portions of two simplices in a window; its values are those of
+    /// the first less those of the second.
+    template <class Visit>
+    void each(const ValuedSimplex<D> &first, const ValuedSimplex<D> &second, const Box<D> &window,
+              const abacus_extent &extent, Visit visit) {
+        const bool is_first_cut = is_cut(first, second);
+        const ValuedSimplex<D> &cut = is_first_cut ? first : second,
+                               &other = is_first_cut ? second : first;
+        const NearFrame<D> frame(cut, other);
+        const Piece<D> whole = frame.into(cut), other_whole = frame.into(other);
+        const double error = rounding_error<D>(whole, other_whole);
+        if (is_exact_ && !(error < most_relative_error * measure(whole)))
+            return exact::each_common_portion<D>(cut.as_it_is(), other.as_it_is(), window,
+                                                 polygon_in<D>(extent), [&](Portion<D> portion) {
+                                                     if (!is_first_cut) portion.negate();
+                                                     visit(portion);
+                                                 });
+        add(error_, error, frame);
+        const Facets<D> facets(other, frame);
+        const auto show = [&](const Piece<D> &piece) {
+            const double size = measure(piece);
+            add(size_, size, frame);
+            visit(Portion<D>{size, piece.value, frame.of_measures(), frame.of_values()});
+        };
+        const auto show_in_polygon = [&](const Piece<D> &piece) {
+            if (polygon_of(extent) == nullptr) return show(piece);
+            clip_polygon(cut, frame.out(piece), extent,
+                         [&](const Piece<D> &part) { show(frame.in(part)); });
+        };
+        facets.clip(whole, [&](Piece<D> piece) {
+            for (int i = 0; i <= D; ++i) {
+                const double value = facets.value_at(piece.corner[i], other_whole.value);
+                piece.value[i] = is_first_cut ? piece.value[i] - value : value - piece.value[i];
+            }
+            clip_box<D>(piece, frame.into(window), show_in_polygon);
+        });
+    }
+
+private:
+    static constexpr double most_relative_error = 0x1p-30;
+
+    void add(WideSum &sum, double number, const NearFrame<D> &frame) const {
+        if (!is_exact_) sum.add(number, frame.of_measures());
+    }
+
+    const bool is_exact_;
+    WideSum size_, error_;
+};
 
 /// Another mesh, which has its own host.
 struct OtherMesh {

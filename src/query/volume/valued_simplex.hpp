@@ -53,6 +53,11 @@ template <int D> struct ValuedSimplex {
     }
 };
 
+/// The polygon of an extent; null in space.
+template <int D> const Polygon *polygon_in(const abacus_extent &extent) {
+    return D == 2 ? polygon_of(extent) : nullptr;
+}
+
 /// Calls visit(piece) for the parts of a simplex that count, cut at the border of a polygon. Its
 /// corner 0 is the origin of the piece.
 template <int D, class Visit>

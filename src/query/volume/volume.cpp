@@ -14,6 +14,15 @@ double surface_of(const Piece<2> &piece) {
 
 double surface_of(const Piece<3> &piece) { return section_area(piece, piece.value); }
 
+/// How many times larger a surface is than the triangle below it.
+double steepness(const ValuedSimplex<2> &simplex) {
+    constexpr double flat = 0x1p-20;
+    if (!(measure(NearFrame<2>(simplex, simplex).into(simplex)) > flat))
+        return exact::steepness(simplex.as_it_is());
+    const Piece<2> whole = simplex.piece();
+    return surface_of(whole) / measure(whole);
+}
+
 } // namespace
 
 // ---- Sums --------------------------------------------------------------------------------
@@ -24,11 +33,20 @@ template <int D> void Volume<D>::add(const Piece<D> &piece) {
     add_sides(piece);
 }
 
-template <int D> void Volume<D>::add(const Piece<D> &piece, double steepness) {
-    const double area = measure(piece);
+template <int D> void Volume<D>::add(const Portion<D> &portion, double steepness) {
+    const auto number = [](const ScaledNumber &scaled) {
+        return std::ldexp(scaled.value, scaled.exponent);
+    };
+    const double area = number(portion.size());
     area_.add(area);
     surface_.add(area * steepness);
-    add_sides(piece);
+    each_of_one_sign<D>(portion, [&](const Portion<D> &part) {
+        const double amount = number(part.integral());
+        if (amount >= 0)
+            cut_.add(amount);
+        else
+            fill_.add(-amount);
+    });
 }
 
 template <int D> void Volume<D>::add_sides(const Piece<D> &piece) {
@@ -72,18 +90,19 @@ abacus_volume volume_above(const Host &host, const abacus_facts &facts,
 abacus_volume volume_between(const Host &host, const abacus_facts &facts,
                              const abacus_surface &surface, const OtherMesh &other) {
     const Box<2> window = box_of<2>(surface.window);
-    Volume<2> volume;
-    each_overlap<2>(host, facts, surface, other,
-                    [&](const ValuedSimplex<2> &first, const ValuedSimplex<2> &second) {
-                        const Piece<2> whole = first.piece();
-                        const double area = measure(whole);
-                        const double steepness = area > 0 ? surface_of(whole) / area : 1;
-                        each_common_piece(first, second, window, surface.extent,
-                                          [&](const Piece<2> &piece, const NearFrame<2> &frame) {
-                                              volume.add(frame.out(piece), steepness);
-                                          });
-                    });
-    return volume.sums();
+    for (const bool is_exact : {false, true}) {
+        CommonPortions<2> portions(is_exact);
+        Volume<2> volume;
+        each_overlap<2>(host, facts, surface, other,
+                        [&](const ValuedSimplex<2> &first, const ValuedSimplex<2> &second) {
+                            const double steep = steepness(first);
+                            portions.each(
+                                first, second, window, surface.extent,
+                                [&](const Portion<2> &portion) { volume.add(portion, steep); });
+                        });
+        if (portions.is_sure()) return volume.sums();
+    }
+    return {}; // not reached
 }
 
 template class Volume<2>;

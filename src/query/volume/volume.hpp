@@ -25,9 +25,9 @@ public:
     /// In the plane a piece of the surface: its values are heights above the base. In space the
     /// base is where its values are 0.
     void add(const Piece<D> &piece);
-    /// The same for a piece between two surfaces, the first of which is this many times as large as
+    /// The same between two surfaces, the first of which is this many times as large as
     /// its projection.
-    void add(const Piece<D> &piece, double steepness);
+    void add(const Portion<D> &portion, double steepness);
 
     abacus_volume sums() const {
         return {area_.value(), surface_.value(), cut_.value(), fill_.value()};
