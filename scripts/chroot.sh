@@ -5,7 +5,7 @@
 #   chroot.sh NAME COMMAND...   e.g. chroot.sh 17 scripts/test.sh regress
 #   chroot.sh NAME              only makes it
 #
-# NAME is 15, 17, 18 or arm64. Exits with 77 if it cannot be made here: not root, no mirror, or no such suite
+# NAME is 15, 17, 18, 19 or arm64. Exits with 77 if it cannot be made here: not root, no mirror, or no such suite
 # there. A command installs the packages that it needs.
 #
 # In the chroot the source tree is /abacus, which is read-only, and build/chroot-NAME/build is its folder
@@ -14,12 +14,12 @@
 set -euo pipefail
 . "$(dirname "$0")/common.sh"
 
-# Debian's suites with these versions of PostgreSQL.
-declare -A suites=([15]=bookworm [17]=trixie [18]=forky [arm64]=trixie)
+# Debian's suites with these versions of PostgreSQL. Experimental has only what differs from sid.
+declare -A suites=([15]=bookworm [17]=trixie [18]=forky [19]="sid experimental" [arm64]=trixie)
 
 name=${1:-}
 suite=${suites[${name:-none}]:-}
-[[ -n $suite ]] || fail "usage: $0 15|17|18|arm64 [COMMAND...]"
+[[ -n $suite ]] || fail "usage: $0 15|17|18|19|arm64 [COMMAND...]"
 shift
 root=$ABACUS_BUILD/chroot-$name/root
 build=$ABACUS_BUILD/chroot-$name/build
@@ -44,14 +44,17 @@ mirror() {
 # The common part: no server is started, no cluster is made, only the programs are unpacked. A mirror may be a
 # copy from an earlier day, with valid signatures but past dates.
 make_root() {
-    local from
+    local from archive sources=()
     ((EUID == 0)) || cannot "it needs root"
     command -v mmdebstrap >/dev/null || { apt-get update -q && apt-get install -q -y --no-install-recommends mmdebstrap; } ||
         cannot "the package mmdebstrap is missing"
     from=$(mirror)
     [[ -n $from ]] || cannot "apt knows no mirror of Debian; try apt-get update"
+    for archive in $suite; do sources+=("deb $from $archive main"); done
     rm -rf --one-file-system "$root.new"
     mkdir -p "${root%/*}" "$build"
+    # apt takes nothing from experimental that nobody names, not even libpq of the server's version.
+    printf 'Package: src:postgresql-%s\nPin: release *\nPin-Priority: 990\n' "$name" >"${root%/*}/preferences"
     mmdebstrap --variant=apt --components=main --architectures="$architectures" \
         --aptopt='APT::Install-Recommends "false"' --aptopt='Acquire::Check-Valid-Until "false"' \
         --aptopt='Acquire::Languages "none"' \
@@ -59,9 +62,10 @@ make_root() {
         --dpkgopt='path-exclude=/usr/share/doc/*' --dpkgopt='path-exclude=/usr/share/locale/*' \
         --customize-hook='mkdir -p "$1/etc/postgresql-common" "$1/abacus"' \
         --customize-hook='echo "create_main_cluster = false" >"$1/etc/postgresql-common/createcluster.conf"' \
+        --customize-hook="copy-in ${root%/*}/preferences /etc/apt" \
         --customize-hook='printf "#!/bin/sh\nexit 101\n" >"$1/usr/sbin/policy-rc.d"' \
         --customize-hook='chmod 755 "$1/usr/sbin/policy-rc.d"' \
-        "$suite" "$root.new" "$from" || cannot "mmdebstrap has failed"
+        "${suite%% *}" "$root.new" "${sources[@]}" || cannot "mmdebstrap has failed"
     mv "$root.new" "$root"
 }
 

@@ -13,7 +13,7 @@
 #                       the names: all, or those of a size, with the part that has its turn;
 #                       test/sizes says which is in which
 #   test.sh --postgresql N [short|NAME...]
-#                       with PostgreSQL 17 or 18, in a Debian that has it (chroot.sh): all that a
+#                       with PostgreSQL 17, 18 or 19, in a Debian that has it (chroot.sh): all that a
 #                       server and the core concerns, compiled there; these suites; or, in some
 #                       minutes, what differs between servers, with the core as it is compiled here
 #
@@ -36,7 +36,7 @@ short_sets="wheel octree duplicates"
 
 # Each suite and its command, in the order in which they begin, each as soon as its needs have passed.
 suites=(format layout build-extension build tap build-benchmarks build-sanitized build-threads
-    postgresql-17 postgresql-18 viewer unit-sanitized unit-threads unit acceptance unit-apart oracles pgtap
+    postgresql-17 postgresql-18 postgresql-19 viewer unit-sanitized unit-threads unit acceptance unit-apart oracles pgtap
     regress isolation docs model model-lines model-track fuzz reports acceptance-goose oracles-large viewer-large tidy bench evaluation demo-shards)
 declare -A command=(
     [format]=format_check
@@ -72,13 +72,14 @@ declare -A command=(
     [evaluation]="scripts/evaluation.sh smoke"
     [postgresql-17]="scripts/test.sh --postgresql 17 short"
     [postgresql-18]="scripts/test.sh --postgresql 18 short"
+    [postgresql-19]="scripts/test.sh --postgresql 19 short"
 )
 # What must have passed before a suite begins.
 declare -A needs=([unit]=build [unit-apart]=build [build-sanitized]=build [build-benchmarks]=build
     [unit-sanitized]=build-sanitized [unit-threads]=build-threads [fuzz]=build-sanitized
     [bench]=build-benchmarks [evaluation]=build-benchmarks)
 for name in build regress isolation pgtap docs viewer viewer-large tap; do needs[$name]=build-extension; done
-for name in acceptance acceptance-goose model model-lines model-track oracles oracles-large postgresql-17 postgresql-18; do needs[$name]=build; done
+for name in acceptance acceptance-goose model model-lines model-track oracles oracles-large postgresql-17 postgresql-18 postgresql-19; do needs[$name]=build; done
 if [[ -n ${ABACUS_SHORT:-} ]]; then needs[acceptance]=build-extension; fi # the oracle was brought
 
 # The line of a log that says how much was tested.

@@ -10,13 +10,14 @@
 #include "pg/fdw/published.h"
 #include "pg/levels/levels_table.h"
 #include "pg/mesh/mesh_cache.h"
+#include "pg/port/port.h"
 #include "pg/shards/connection.h"
 #include "pg/remote/remote_pages.h"
 #include "pg/space/vacuum.h"
 #include "pg/track/pending.h"
 #include "pg/track/tracking.h"
 
-PG_MODULE_MAGIC;
+PG_MODULE_MAGIC_EXT(.name = "abacus", .version = ABACUS_VERSION);
 
 SQL_FUNCTION(abacus_sql_version);
 

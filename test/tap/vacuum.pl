@@ -106,7 +106,8 @@ leaves('table that is not to be cut', '', 'VACUUM plane');
 leaves('read-only session', '', 'VACUUM plane', 'SET default_transaction_read_only = on');
 leaves('ANALYZE', '', 'ANALYZE plane');
 leaves('transaction block', 'ERROR:  VACUUM cannot run inside a transaction block', 'BEGIN; VACUUM plane; ROLLBACK');
-leaves('block of PL/pgSQL', "ERROR:  VACUUM cannot be executed from a function
+my $caller = $node->safe_psql('postgres', 'SHOW server_version_num') >= 190000 ? 'a function or procedure' : 'a function';
+leaves('block of PL/pgSQL', "ERROR:  VACUUM cannot be executed from $caller
 CONTEXT:  SQL statement \"VACUUM plane\"\nPL/pgSQL function inline_code_block line 1 at SQL statement",
 	q{DO 'BEGIN VACUUM plane; END'});
 leaves('several statements', 'ERROR:  VACUUM cannot run inside a transaction block', 'VACUUM plane\; SELECT 1');

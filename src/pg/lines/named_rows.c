@@ -17,6 +17,7 @@
 #include "utils/queryenvironment.h"
 
 #include "pg/lines/named_rows.h"
+#include "pg/port/port.h"
 
 /* An empty set of rows, in the current memory context. */
 NamedRows *
@@ -28,6 +29,7 @@ named_rows_create(const char *name, const NamedColumn *columns, int count)
 	rows->desc = CreateTemplateTupleDesc(count);
 	for (int i = 0; i < count; i++)
 		TupleDescInitEntry(rows->desc, (AttrNumber) (i + 1), columns[i].name, columns[i].type, -1, 0);
+	TupleDescFinalize(rows->desc);
 	/* there are several, beside what sorts them */
 	rows->store = tuplestore_begin_heap(true, false, Max(64, work_mem / 4));
 	return rows;

@@ -49,6 +49,11 @@
 #define pg_noreturn pg_attribute_noreturn()
 #endif
 
+/* The module's name and version, which pg_get_loaded_modules() shows (from 18 on). */
+#if PG_VERSION_NUM < 180000
+#define PG_MODULE_MAGIC_EXT(...) PG_MODULE_MAGIC
+#endif
+
 /* ---- Columns that are computed when they are read (name of 18) ------------ */
 
 #if PG_VERSION_NUM < 180000
@@ -112,6 +117,11 @@ port_may_maintain(Oid table, Oid role)
 }
 
 /* ---- Scans, rows and triggers ------------------------------------------------ */
+
+/* The last step of making a row description: without it 19 does not know where its columns are. */
+#if PG_VERSION_NUM < 190000
+#define TupleDescFinalize(desc) ((void) (desc))
+#endif
 
 /* 18 counts searches, 19 takes flags. */
 static inline IndexScanDesc

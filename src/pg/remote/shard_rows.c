@@ -10,6 +10,7 @@
 
 #include "executor/spi.h"
 #include "funcapi.h"
+#include "utils/tuplestore.h"
 
 #include "pg/mesh/mesh.h"
 #include "pg/mesh/mesh_cache.h"

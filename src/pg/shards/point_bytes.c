@@ -8,6 +8,7 @@
 
 #include "port/pg_bswap.h"
 
+#include "pg/port/port.h"
 #include "pg/shards/point_bytes.h"
 
 /* Words of a record: id, coordinates, attributes. */

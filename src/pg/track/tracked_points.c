@@ -201,6 +201,7 @@ check_types(List *columns, abacus_names mesh, Relation table)
 	foreach(cell, columns)
 		TupleDescCopyEntry(point, foreach_current_index(cell) + 1, RelationGetDescr(table),
 						   get_attnum(RelationGetRelid(table), lfirst(cell)));
+	TupleDescFinalize(point);
 	row_packer_create_tracked(point, mesh, 1);
 }
 

@@ -23,6 +23,7 @@
 #include "utils/tuplestore.h"
 
 #include "pg/mesh/numbering.h"
+#include "pg/port/port.h"
 #include "pg/track/tracked_points.h"
 #include "pg/track/transition.h"
 
@@ -113,6 +114,7 @@ transition_open(const TriggerData *trigger)
 		transition->numbers[i] = number;
 		TupleDescCopyEntry(transition->points, i + 1, desc, number);
 	}
+	TupleDescFinalize(transition->points);
 	transition->columns = transition->inputs;
 	if (row_packer_takes_geometry(transition->points))
 		transition->columns += transition->dimension - 1;

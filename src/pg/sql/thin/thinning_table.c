@@ -16,6 +16,7 @@
 
 #include "pg/mesh/lines_table.h"
 #include "pg/mesh/new_table.h"
+#include "pg/port/port.h"
 #include "pg/sql/thin/thinning_table.h"
 
 /* Columns of the row, from 1 as SPI counts. */
@@ -126,7 +127,7 @@ thinning_is_unfinished(Oid mesh)
 	if (rel == NULL)
 		return false;
 	slot = table_slot_create(rel, NULL);
-	scan = table_beginscan(rel, GetActiveSnapshot(), 0, NULL);
+	scan = port_table_beginscan(rel, GetActiveSnapshot());
 	while (table_scan_getnextslot(scan, ForwardScanDirection, slot))
 		is_unfinished = slot_attisnull(slot, THINNING_GREATEST);
 	table_endscan(scan);
