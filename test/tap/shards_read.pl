@@ -172,6 +172,23 @@ fails("SELECT count(*) FROM abacus_edges('many'); SET ROLE reader; SELECT count(
 fails("SELECT abacus_walk('many', abacus_locate('many', 0.5, 0.5), 0); SET ROLE reader; SELECT abacus_locate('many', 0.5, 0.5)", qr/42501.*permission denied for foreign server/, 'nor in the cache');
 fails("SET statement_timeout = 100; SELECT count(*) FROM generate_series(1, 1000) AS i, abacus_edges('many')", qr/57014/, 'a timeout');
 
+# What servers send is not trusted: forged pages are data_corrupted.
+my $pages = 'abacus_shard_pages(mesh, kind, "first", "last", from_code, from_part, bytes)';
+for my $forged (
+	[ "SELECT code, part, set_byte(page, 100, 255 - get_byte(page, 100)) FROM public.$pages", 'wrong checksum' ],
+	[ "SELECT code, part, ''::bytea FROM public.$pages WHERE page IS NOT NULL UNION ALL SELECT 9223372036854775807, 0, NULL", 'impossible size' ],
+	[ "SELECT code, part, page FROM public.$pages WHERE page IS NOT NULL", 'do not follow one another' ],
+	[ "SELECT code, part, page || page || page FROM public.$pages", 'do not follow one another' ],
+	[ "SELECT -code, part, page FROM public.$pages", 'do not follow one another' ],
+	[ 'SELECT from_code + 1000, from_part, NULL::bytea', 'corrupted' ],
+	[ "SELECT from_code, from_part, page FROM public.abacus_shard_pages(mesh, kind, \"first\", \"last\", \"first\", 0, bytes) WHERE page IS NOT NULL UNION ALL SELECT 9223372036854775807, 0, NULL", 'corrupted|follow' ])
+{
+	$node->safe_psql('shard2', "CREATE SCHEMA IF NOT EXISTS $user");
+	$node->safe_psql('shard2', "CREATE FUNCTION $user.abacus_shard_pages(mesh regclass, kind int, \"first\" bigint, \"last\" bigint, from_code bigint, from_part bigint, bytes int) RETURNS TABLE (code bigint, part bigint, page bytea) LANGUAGE sql AS \$\$ $forged->[0] \$\$");
+	fails("SELECT count(*) FROM abacus_edges('many')", qr/XX001.*($forged->[1])/s, "forged: $forged->[0]");
+	$node->safe_psql('shard2', "DROP FUNCTION $user.abacus_shard_pages");
+}
+
 # Errors of servers, also in the middle of reading; the session goes on afterwards.
 my $broken = "DO \$\$ BEGIN PERFORM count(*) FROM abacus_edges('many'); RAISE NOTICE 'read'; EXCEPTION WHEN others THEN RAISE NOTICE 'failed: %', SQLSTATE; END \$\$";
 my ($shard) = $node->safe_psql('postgres', "SELECT shard_mesh FROM abacus_shards('many') WHERE shard = 3");

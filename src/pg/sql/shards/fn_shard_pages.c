@@ -111,12 +111,13 @@ abacus_sql_shard_pages(PG_FUNCTION_ARGS)
 				 errmsg("codes and parts must not be negative")));
 	InitMaterializedSRF(fcinfo, 0);
 	reader = reader_open(PG_GETARG_OID(PAGES_MESH), CurrentMemoryContext);
-	if (last < first)
-		PG_RETURN_NULL();
-	host_run(reader->host, abacus_own_pages_open, &reader->host->table, &reader->header.facts,
-			 (abacus_page_kind) PG_GETARG_INT32(PAGES_KIND), (uint64) first, (uint64) last, &from, &pages);
-	host_own(reader->host, pages, (void (*) (void *)) abacus_own_pages_close);
-	put_pages((ReturnSetInfo *) fcinfo->resultinfo, reader->host, pages, PG_GETARG_INT32(PAGES_BYTES));
+	if (first <= last)
+	{
+		host_run(reader->host, abacus_own_pages_open, &reader->host->table, &reader->header.facts,
+				 (abacus_page_kind) PG_GETARG_INT32(PAGES_KIND), (uint64) first, (uint64) last, &from, &pages);
+		host_own(reader->host, pages, (void (*) (void *)) abacus_own_pages_close);
+		put_pages((ReturnSetInfo *) fcinfo->resultinfo, reader->host, pages, PG_GETARG_INT32(PAGES_BYTES));
+	}
 	host_release(reader->host);
 	host_destroy(reader->host);
 	PG_RETURN_NULL();
