@@ -393,6 +393,7 @@ PG_SOURCES += src/pg/shards/point_bytes.c
 PG_SOURCES += src/pg/shards/point_room.c
 PG_SOURCES += src/pg/shards/relay.c
 PG_SOURCES += src/pg/shards/shard_check.c
+PG_SOURCES += src/pg/shards/shard_drop.c
 PG_SOURCES += src/pg/shards/shard_owner.c
 PG_SOURCES += src/pg/shards/shard_sql.c
 PG_SOURCES += src/pg/shards/shard_state.c

@@ -72,7 +72,7 @@ RETURNS void
 AS 'MODULE_PATHNAME', 'abacus_sql_shard_drop'
 LANGUAGE C VOLATILE STRICT PARALLEL UNSAFE;
 COMMENT ON FUNCTION abacus_shard_drop(regclass) IS
-    'drops a mesh over several servers, its tables on the servers first. What a server has dropped does not come back with a rollback. Errors: 42809 not a mesh over several servers, 42501 not its owner';
+    'drops a mesh over several servers, with its tables there: they go when the transaction commits. A warning names those that remain, because a server cannot be reached then. Errors: 42809 not a mesh over several servers, 42501 not its owner, 08001 no connection, 0A000 in a savepoint after another one, or before PREPARE TRANSACTION';
 
 CREATE FUNCTION abacus_shards(
     mesh regclass,

@@ -49,6 +49,55 @@ for my $isolation ('read committed', 'repeatable read')
 	is($node->safe_psql("s$_", "SELECT count(*) FROM pg_class WHERE relname LIKE 'abacus\\__%' AND relkind = 'r'"), 0, "nothing is left on server $_") for 1 .. 2;
 }
 
+# ---- A mesh is dropped with its transaction ------------------------------------------------------------------
+
+sub tables { return join ' ', map { my ($cluster, $database) = @$_; $cluster->safe_psql($database, "SELECT count(*) FROM pg_class WHERE relname LIKE 'abacus\\__%' AND relkind = 'r'") } [ $node, 's1' ], [ $other, 'far' ]; }
+sql("SELECT abacus_shard_create('going', '{s1,far}'); CALL abacus_shard_build('going', '$builds[0]')");
+is(tables(), '3 3', 'tables of a mesh');
+sql("BEGIN; SELECT abacus_shard_drop('going'); ROLLBACK");
+sql("BEGIN; SAVEPOINT a; SELECT abacus_shard_drop('going'); ROLLBACK TO a; SELECT count(*) FROM abacus_cells('going'); COMMIT");
+shards_is_same($node, 'going', 'wanted0', 'a drop that is rolled back');
+fails("BEGIN; SELECT abacus_shard_drop('going'); PREPARE TRANSACTION 'p'", qr/0A000.*cannot PREPARE|55000.*prepared transactions are disabled/, 'a drop that is prepared');
+is(tables(), '3 3', 'nothing is dropped');
+sql("BEGIN; SAVEPOINT a; SELECT abacus_shard_drop('going'); RELEASE a; COMMIT");
+is(tables(), '0 0', 'dropped');
+{
+	sql("SELECT abacus_shard_create('going', '{s1,far}'); CALL abacus_shard_build('going', '$builds[0]')");
+	my ($out, $err);
+	my $session = shards_in_background($node, \$out, \$err, 'BEGIN', "SELECT abacus_shard_drop('going')", 'SELECT pg_sleep(2)', 'COMMIT');
+	ok($node->poll_query_until('postgres', "SELECT EXISTS (SELECT FROM pg_stat_activity WHERE query LIKE 'SELECT pg_sleep%')"), 'a drop waits');
+	$other->safe_psql('postgres', "SELECT pg_terminate_backend(pid) FROM pg_stat_activity WHERE datname = 'far'");
+	$session->finish;
+	like($err, qr/WARNING.*tables abacus_\w+ and abacus_\w+_guests remain on server "far"/, 'a server that is lost before the commit');
+	is(tables(), '0 3', 'the others are dropped');
+	my ($mesh) = $err =~ /tables (abacus_\w+) and/;
+	$other->safe_psql('far', "DROP TABLE $mesh, ${mesh}_guests");
+	is(tables(), '0 0', 'and those, as the warning says');
+}
+
+# ---- A part of a mesh is missing ------------------------------------------------------------------------------
+
+sql("SELECT abacus_shard_create('torn', '{s1,far}'); CALL abacus_shard_build('torn', '$builds[0]')");
+{
+	my ($out, $err, $held, $nothing);
+	my $lock = shards_in_background($node, \$held, \$nothing, "SELECT pg_advisory_lock(1), 'held'", 'SELECT pg_sleep(3600)');
+	$lock->pump until $held =~ /held/;
+	my $session = shards_in_background($node, \$out, \$err, 'BEGIN ISOLATION LEVEL REPEATABLE READ', "SELECT count(*), 'seen' FROM torn",
+		'SELECT pg_advisory_lock(1)', "SELECT count(*) FROM abacus_cells('torn')");
+	$session->pump until $out =~ /seen/;
+	sql("CALL abacus_shard_build('torn', '$builds[$_]')") for 1, 0;
+	sql("SELECT pg_terminate_backend(pid) FROM pg_stat_activity WHERE query LIKE 'SELECT pg_sleep%'");
+	$_->finish for $session, $lock;
+	like($err, qr/42P01.*"abacus_\w+_0_1" does not exist.*HINT:  If the mesh was built again meanwhile, repeat the transaction/s, 'a snapshot that is older than two builds');
+}
+my ($torn) = sql("SELECT shard_mesh FROM abacus_shards('torn') WHERE shard = 2");
+$other->safe_psql('far', "DROP TABLE $torn CASCADE");
+fails("SELECT count(*) FROM abacus_cells('torn')", qr/42P01.*"$torn" does not exist.*HINT:  If the mesh was built again meanwhile, repeat the transaction/s, 'a part that is missing');
+is(sql("SELECT state FROM abacus_shards('torn') WHERE shard = 2"), 'absent', 'it is shown as absent');
+sql("CALL abacus_shard_build('torn', '$builds[1]')");
+shards_is_same($node, 'torn', 'wanted1', 'built again');
+sql("SELECT abacus_shard_drop('torn')");
+
 # ---- Errors and notices -------------------------------------------------------------------------------------
 
 sub first_line
@@ -101,7 +150,7 @@ SKIP:
 	(my $world = $geometries) =~ s/SRID\)/4326)/;
 	sql("CALL abacus_shard_build('swiss', '$swiss')");
 	my ($mesh) = sql("SELECT shard_mesh FROM abacus_shards('swiss') WHERE shard = 2");
-	is($node->safe_psql('s2', "SELECT abacus_srid('$mesh')") . sql('SELECT srid FROM swiss'), '20562056', 'the SRID of geometries is kept');
+	is($node->safe_psql('s2', "SELECT abacus_srid('$mesh')") . sql("SELECT abacus_srid('swiss')"), '20562056', 'the SRID of geometries is kept');
 	sql("SELECT abacus_triangulate('one', '$swiss')");
 	shards_is_same($node, 'swiss', 'one', 'geometries');
 	sql("CALL abacus_shard_build('swiss', ARRAY['$swiss', '$world LIMIT 0'])");

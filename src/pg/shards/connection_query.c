@@ -88,6 +88,16 @@ connection_report_lost(Connection *connection)
 			 errhint("Call the function again: it connects anew.")));
 }
 
+/* What to do if a part of a mesh is missing on its server. */
+static const char *
+hint_of_missing(int code, const char *message)
+{
+	if (code != ERRCODE_UNDEFINED_TABLE || message == NULL || strstr(message, "\"abacus_") == NULL)
+		return NULL;
+	return "If the mesh was built again meanwhile, repeat the transaction. Else its part on this server was dropped, or "
+		"never restored: build the mesh again with abacus_shard_build().";
+}
+
 /* Raises the error of a result, which is freed. */
 static void
 report_error(Connection *connection, PGresult *result)
@@ -108,6 +118,8 @@ report_error(Connection *connection, PGresult *result)
 	for (int i = 0; i < lengthof(texts); i++)
 		texts[i] = texts[i] == NULL ? NULL : pstrdup(texts[i]);
 	PQclear(result);
+	if (texts[2] == NULL)
+		texts[2] = hint_of_missing(code, texts[0]);
 	ereport(ERROR,
 			(errcode(code),
 			 errmsg_internal("%s", texts[0] == NULL ? "unknown error" : texts[0]),

@@ -33,6 +33,17 @@ exists(const Generation *generation, ShardLinks *links, int shard)
 	return link_int64(links, shard) > 0;
 }
 
+/* How many have no mesh. */
+int
+shard_count_missing(const Generation *generation, ShardLinks *links)
+{
+	int			missing = 0;
+
+	for (int i = 0; i < generation->shards; i++)
+		missing += !exists(generation, links, i);
+	return missing;
+}
+
 static void
 read_state(ShardLinks *links, int shard, ShardState *state)
 {

@@ -17,6 +17,7 @@ typedef struct ShardState
 	char	   *doing;			/* a phase of abacus_progress, or NULL */
 } ShardState;
 
+extern int	shard_count_missing(const Generation *generation, ShardLinks *links);
 extern ShardState *shard_states(const Generation *generation, ShardLinks *links);
 
 #endif

@@ -33,7 +33,9 @@
 #include "pg/port/port.h"
 #include "pg/shards/build_progress.h"
 #include "pg/shards/exchange.h"
+#include "pg/shards/shard_drop.h"
 #include "pg/shards/shard_sql.h"
+#include "pg/shards/shard_state.h"
 #include "pg/shards/spread.h"
 
 SQL_FUNCTION(abacus_sql_shard_create);
@@ -224,6 +226,35 @@ drop_before(const Generation *kept)
 	}
 }
 
+typedef struct BuildPhase
+{
+	Generation *generation;
+	const ShardSource *source;
+	int			missing;		/* meshes on servers */
+} BuildPhase;
+
+static void
+count_missing(ShardLinks *links, void *context)
+{
+	BuildPhase *phase = context;
+
+	phase->missing = shard_count_missing(phase->generation, links);
+}
+
+/* Whether a build can go on: nobody has dropped a mesh of its on a server meanwhile. */
+static bool
+can_go_on(Generation *generation)
+{
+	BuildPhase	phase = {.generation = generation};
+	ShardLinks	links;
+
+	if (generation->phase == SHARDS_NEW)
+		return true;
+	links_prepare(&links, generation->servers, generation->shards);
+	links_run(&links, count_missing, &phase);
+	return phase.missing == 0;
+}
+
 /* The generation to be built: the newest one, if this call is to go on with it, else another one. */
 static void
 choose_generation(Oid relid, const char *source, Generation *generation)
@@ -241,7 +272,7 @@ choose_generation(Oid relid, const char *source, Generation *generation)
 		generation_insert(generation);
 		commit();
 	}
-	else if (generation->source == NULL || strcmp(generation->source, source) != 0)
+	else if (generation->source == NULL || strcmp(generation->source, source) != 0 || !can_go_on(generation))
 	{
 		if (generation->source != NULL)
 			drop_generation(generation);
@@ -250,12 +281,6 @@ choose_generation(Oid relid, const char *source, Generation *generation)
 		commit();
 	}
 }
-
-typedef struct BuildPhase
-{
-	Generation *generation;
-	const ShardSource *source;
-} BuildPhase;
 
 static void
 run_phase(ShardLinks *links, void *context)
@@ -281,7 +306,7 @@ static void
 build(Oid relid, const ShardSource *source, int queries)
 {
 	Generation	generation;
-	BuildPhase	phase = {&generation, source};
+	BuildPhase	phase = {.generation = &generation,.source = source};
 	ShardLinks	links;
 
 	choose_generation(relid, digest(source, queries), &generation);
@@ -399,7 +424,7 @@ abacus_sql_shard_drop(PG_FUNCTION_ARGS)
 	SPI_connect();
 	lock = lock_table(relid);
 	while (generation_read_after(relid, generation.number, &generation))
-		drop_generation(&generation);
+		shard_drop(&generation);
 	utility_run(psprintf("DROP TABLE %s", lines_table_name(relid)));
 	UnlockRelationIdForSession(&lock, ShareUpdateExclusiveLock);
 	SPI_finish();
