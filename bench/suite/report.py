@@ -18,7 +18,7 @@ SETS = {"uniform": "uniform", "curves": "clusters and curves", "grid": "grid",
 
 # Tables by themselves, and the measurements that each has
 TABLES = {"location": (tables.location, ("locate",)), "cold": (tables.cold, ("cold",)), "asking": (tables.asking, ("ask",)),
-          "shares": (tables.shares, ("share",)), "sharded": (tables.sharded, ("sharded",)),
+          "shares": (tables.shares, ("share",)), "sharded": (tables.sharded, ("sharded",)), "sharded_reading": (tables.sharded_reading, ("sharded reading",)),
           "surfaces": (tables.surfaces, ("surface",)), "octrees": (tables.octrees, ("octree",)), "gpu": (tables.gpu, ("gpu",)),
           "lines": (tables.lines, ("lines", "line insert")),
           "within": (region_tables.within, ("within", "region step")), "terrain": (region_tables.terrain, ("terrain", "region edit")),

@@ -5,6 +5,15 @@ import time
 import server
 
 SHARDS = 4
+# Questions about a mesh, by its name; places are a table of 1,000
+READING = {
+    "contours": "SELECT count(*) FROM abacus_contours('{mesh}', 1e4, attribute => 'h')",
+    "edges": "SELECT count(*) FROM abacus_edges('{mesh}')",
+    "a picture": "SELECT length(abacus_draw('{mesh}', 800, edges => false))",
+    "a picture of a hundredth": "SELECT length(abacus_draw('{mesh}', 800, lower => '{{0.45,0.45}}', upper => '{{0.55,0.55}}', edges => false))",
+    "places, in one call": "SELECT count(*) FROM abacus_locate('{mesh}', 'TABLE places')",
+    "places, each alone": "SELECT count(abacus_locate('{mesh}', x, y)) FROM places",
+    "natural neighbours, in one call": "SELECT count(*) FROM abacus_interpolate('{mesh}', 'TABLE places', 'h', method => 'natural')"}
 
 
 class Sharded:
@@ -55,7 +64,28 @@ class Sharded:
         self.record(dimension, count, "a query for each server", [self.build(queries) for _ in range(runs)])
         if server.query("SELECT simplices FROM many ORDER BY generation DESC LIMIT 1") != alone[-1]["printed"]:
             raise server.Failure("the mesh over several servers has another number of simplices")
+        if dimension == 2:
+            self.read(count)
         server.query("SELECT abacus_shard_drop('many')")
+
+    def read(self, count):
+        """The same questions about both meshes, in turns, each in a new session: nothing of the mesh is in its memory yet."""
+        server.query("DROP TABLE IF EXISTS places; SELECT setseed(0.25); CREATE TABLE places AS SELECT i AS id, random() AS x, random() AS y"
+                     " FROM generate_series(1, 1000) AS i")
+        for question, sql in READING.items():
+            samples = {"mesh": [], "many": []}
+            for _ in range(self.runs[self.suite.mode]):
+                for mesh, taken in samples.items():
+                    with server.Session() as session:
+                        taken.append(session.timed(sql.format(mesh=mesh)))
+            if samples["mesh"][-1]["printed"] != samples["many"][-1]["printed"] and "picture" not in question:
+                raise server.Failure(f"{question}: the mesh over several servers has another answer")
+            for mesh, taken in samples.items():
+                self.suite.measurements.append({"what": "sharded reading", "engine": "abacus", "dimension": 2, "points": count, "question": question,
+                                                "shards": 1 if mesh == "mesh" else SHARDS, "samples": taken})
+            walls = [min(sample["wall"] for sample in samples[mesh]) for mesh in samples]
+            self.suite.say(f"  {count:>10,} points, {question:32} one server {walls[0]:8.3f} s, {SHARDS} shards {walls[1]:8.3f} s")
+        server.drop("places")
 
     def hand_out(self, dimension):
         """Each server gets a table of the points that it owns, in no order."""

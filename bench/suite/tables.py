@@ -109,6 +109,18 @@ def sharded(results):
     return table(("", "source", "CPU", "÷ one server", "slowest server ÷ one", "rounds", "vertices sent", "of all points", "runs"), rows)
 
 
+def sharded_reading(results):
+    """Questions about a mesh over several servers, beside one on one server."""
+    rows, alone = [], {}
+    for m in results.all(what="sharded reading"):
+        wall, what = statistics.median(values(m, "wall")), (mesh_name(m), m["question"])
+        if m["shards"] == 1:
+            alone[what] = wall
+        else:
+            rows.append((*what, f"{number(alone[what])} s", f"{number(wall)} s", number(ratio(wall, alone[what])), len(m["samples"])))
+    return table(("", "question", "one server", "four shards", "÷ one server", "runs"), rows)
+
+
 def rate(measurement):
     """Megabytes of a file a second of elapsed time."""
     return statistics.median(sample["bytes"] / sample["wall"] for sample in measurement["samples"]) / 1e6

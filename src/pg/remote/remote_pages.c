@@ -25,9 +25,9 @@
 #define CODE_LIMIT UINT64CONST(0x7FFFFFFFFFFFFFFF)
 #define KINDS 2
 /* Bytes of pages to ask for: at random places, and at most, as a share of what is kept. */
-#define FEW_BYTES (4 * ABACUS_PAGE_BYTES)
+#define FEW_BYTES (ABACUS_PAGE_BYTES / 2)	/* mostly one page */
 #define MOST_SHARE 8
-#define LEAST_KEPT (MOST_SHARE * FEW_BYTES)
+#define LEAST_KEPT (4 * MOST_SHARE * ABACUS_PAGE_BYTES)
 
 /* Columns of what servers return */
 enum
