@@ -6,10 +6,10 @@
 #   chroot.sh 17 scripts/package_test.sh
 set -euo pipefail
 . "$(dirname "$0")/common.sh"
+. scripts/packages.sh
 
 folder=$ABACUS_BUILD/package
 source=$folder/abacus
-export DEBIAN_FRONTEND=noninteractive DEB_BUILD_OPTIONS="nocheck noddebs parallel=$ABACUS_JOBS"
 export CCACHE_DIR=${CCACHE_DIR:-$ABACUS_BUILD/ccache}
 
 heading "Copy"
@@ -19,13 +19,10 @@ tar -C "$ABACUS_ROOT" --exclude=./build --exclude=./.git --exclude='*.o' -cf - .
 cd "$source"
 
 heading "Packages for the build"
-as_root apt-get update -q
-as_root apt-get install -q -y --no-install-recommends dpkg-dev fakeroot lintian postgresql-server-dev-all
-pg_buildext updatecontrol
-as_root apt-get build-dep -q -y --no-install-recommends -P nocheck ./
+packages_prepare
 
 heading "Build"
-dpkg-buildpackage -us -uc -b --build-profiles=nocheck
+packages_build -b
 
 heading "lintian"
 lintian --allow-root --fail-on error --info "$folder"/*.changes

@@ -31,7 +31,7 @@ logs=$ABACUS_BUILD/test
 mkdir -p "$logs"
 
 # The short form: TAP files about differences between versions, and data sets.
-short_tap="standby.pl logical.pl pg_upgrade.pl vacuum.pl build_crash.pl"
+short_tap="standby.pl logical.pl pg_upgrade.pl vacuum.pl build_crash.pl repack.pl read_only.pl all_visible.pl"
 short_sets="wheel octree duplicates"
 
 # Each suite and its command, in the order in which they begin, each as soon as its needs have passed.

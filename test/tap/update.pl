@@ -1,5 +1,5 @@
-# ALTER EXTENSION UPDATE of abacus and abacus_lab, from every released version. The result must be what CREATE
-# EXTENSION makes. A mesh made by that version (meshes/<version>.sql, from pg_dump) still works, or a message
+# ALTER EXTENSION UPDATE of abacus and the extensions that go with it (those for PostGIS only if it is installed), from
+# every released version. The result must be what CREATE EXTENSION makes. A mesh made by that version (meshes/<version>.sql, from pg_dump) still works, or a message
 # says that it cannot. Objects that have moved from abacus to abacus_lab keep working where they are used.
 use strict;
 use warnings;
@@ -61,24 +61,30 @@ sub released
 }
 
 $node->safe_psql('postgres', "CREATE DATABASE $_") for 'fresh', 'elsewhere';
-$node->safe_psql('fresh', 'CREATE EXTENSION abacus');
-$node->safe_psql('fresh', 'CREATE EXTENSION abacus_lab');
-my %fresh = map { $_ => catalogue('fresh', $_) } 'abacus', 'abacus_lab';
+# those that go with it, and what they need
+my @others = ('abacus_lab');
+push @others, 'abacus_postgis', 'abacus_postgis_raster'
+  if $node->safe_psql('postgres', "SELECT count(*) FROM pg_available_extensions WHERE name IN ('postgis', 'postgis_raster')") == 2;
+my $needed = @others > 1 ? 'CREATE EXTENSION postgis; CREATE EXTENSION postgis_raster;' : '';
+$node->safe_psql('fresh', join ';', $needed, map { "CREATE EXTENSION $_" } 'abacus', @others);
+my %fresh = map { $_ => catalogue('fresh', $_) } 'abacus', @others;
 my $version = $node->safe_psql('fresh', 'SELECT abacus_version()');
 is($node->safe_psql('fresh', "SELECT string_agg(extversion, ' ') FROM pg_extension WHERE extname ~ '^abacus'"),
-	"$version $version", 'module and SQL objects have one version');
+	join(' ', ($version) x (1 + @others)), 'module and SQL objects have one version');
 cmp_ok(length($fresh{abacus}), '>', 5000, 'the catalogues are read');
-cmp_ok(length($fresh{abacus_lab}), '>', 500, 'those of abacus_lab, too');
+cmp_ok(length($fresh{$_}), '>', 500, "those of $_, too") for @others;
 
 my @released = released('abacus', $version);
 ok(scalar(grep { $_ eq '0.1.0' } @released), 'earlier versions: ' . join ', ', @released);
-my %lab_released = map { $_ => 1 } released('abacus_lab', $version);
+my %other_released;
+for my $other (@others) { $other_released{$other}{$_} = 1 for released($other, $version); }
 for my $old (@released)
 {
 	my $database = 'from_' . $old =~ tr/./_/r;
 	$node->safe_psql('postgres', "CREATE DATABASE $database");
 	$node->safe_psql($database, "CREATE EXTENSION abacus VERSION '$old'");
-	$node->safe_psql($database, "CREATE EXTENSION abacus_lab VERSION '$old'") if $lab_released{$old};
+	$node->safe_psql($database, $needed);
+	$node->safe_psql($database, "CREATE EXTENSION $_ VERSION '$old'") for grep { $other_released{$_}{$old} } @others;
 	isnt(catalogue($database, 'abacus'), $fresh{abacus}, "$old: differs");
 
 	# a mesh that it made
@@ -106,9 +112,11 @@ for my $old (@released)
 	is(catalogue($database, 'abacus'), $fresh{abacus}, "$old: after the update all is as new");
 	is($node->safe_psql($database, "SELECT to_regproc('abacus_quake')"), '', "$old: without what is in abacus_lab")
 	  if $without_lab{$old};
-	$node->safe_psql($database,
-		$lab_released{$old} ? 'ALTER EXTENSION abacus_lab UPDATE' : 'CREATE EXTENSION abacus_lab');
-	is(catalogue($database, 'abacus_lab'), $fresh{abacus_lab}, "$old: abacus_lab as well");
+	for my $other (@others)
+	{
+		$node->safe_psql($database, $other_released{$other}{$old} ? "ALTER EXTENSION $other UPDATE" : "CREATE EXTENSION $other");
+		is(catalogue($database, $other), $fresh{$other}, "$old: $other as well");
+	}
 	$session->query_safe("SELECT abacus_triangulate('field', 'VALUES (1, 0, 0, 10), (2, 4, 0, 12), (3, 4, 3, 20), (4, 0, 3, 14), (5, 1, 1, 11), (6, 1, 1, 12)', '{height}')")
 	  if $unread{$old};
 	is($session->query($locate), $unread{$old} ? '1|2|5' : $located, "$old: a session that was there goes on");
@@ -117,7 +125,7 @@ for my $old (@released)
 	is($node->safe_psql($database, "SELECT string_agg(id || ':' || vertex, ' ' ORDER BY id) FROM abacus_vertices('field')"),
 		'1:1 2:2 3:3 4:4 5:5 6:5 7:7', "$old: a mesh, changed");
 	is_sound($node, $database, 'field', "$old: changed");
-	$node->safe_psql($database, 'DROP TABLE field; DROP EXTENSION abacus_lab; DROP EXTENSION abacus');
+	$node->safe_psql($database, 'DROP TABLE field; DROP EXTENSION ' . join ', ', @others, 'abacus');
 	is($node->safe_psql($database, "SELECT count(*) FROM pg_proc WHERE proname ~ '^abacus'"), 0, "$old: nothing is left behind");
 }
 
@@ -154,7 +162,7 @@ ALTER EXTENSION abacus SET SCHEMA public;
 ALTER EXTENSION abacus_lab SET SCHEMA public;
 SQL
 	is($node->safe_psql($database, $used), '324|324', "$old: with abacus_lab, too");
-	is(catalogue($database, $_), $fresh{$_}, "$old: $_ is as new") for sort keys %fresh;
+	is(catalogue($database, $_), $fresh{$_}, "$old: $_ is as new") for 'abacus', 'abacus_lab';
 }
 
 $node->stop;
