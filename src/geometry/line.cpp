@@ -3,6 +3,9 @@
 #include "geometry/facet_order.hpp"
 #include "geometry/line_numbers.hpp"
 
+#include <algorithm>
+#include <numeric>
+
 namespace abacus {
 
 namespace {
@@ -40,18 +43,25 @@ private:
     std::array<Estimate, D == 2 ? N : N * N> sides_;
 };
 
+/// The sum of numbers that are not negative, the same in whatever order they come.
+template <std::size_t n> double sum_of(std::array<double, n> numbers) {
+    std::sort(numbers.begin(), numbers.end());
+    return std::accumulate(numbers.begin(), numbers.end(), 0.0);
+}
+
 /// Sets weights with the sum 1, in rational numbers if need be.
 template <int D, class Get>
 void set_weights(FacetPlace<D> &place, const Line<D> &line,
                  const std::array<Estimate, D> &estimates, Get point) {
-    double sum = 0, error = 0;
-    for (const Estimate &estimate : estimates) {
-        sum += std::fabs(estimate.value);
-        error += estimate.error;
+    std::array<double, D> sizes, errors;
+    for (int i = 0; i < D; ++i) {
+        sizes[i] = std::fabs(estimates[i].value);
+        errors[i] = estimates[i].error;
     }
-    place.error = 2 * error / sum + 1e-15;
+    const double sum = sum_of(sizes);
+    place.error = 2 * sum_of(errors) / sum + 1e-15;
     if (place.error <= most_error && std::isfinite(sum)) [[likely]] {
-        for (int i = 0; i < D; ++i) place.weight[i] = std::fabs(estimates[i].value) / sum;
+        for (int i = 0; i < D; ++i) place.weight[i] = sizes[i] / sum;
     } else {
         const auto exact = exact::facet_weights<D>(line, point);
         exact::Rational whole = 0;

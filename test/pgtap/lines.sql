@@ -74,6 +74,20 @@ SELECT cmp_ok(pg_temp.expected($$ SELECT * FROM abacus_ray('field', '{-1, 0.4}',
 SELECT cmp_ok(pg_temp.expected($$ SELECT * FROM abacus_profile('field', '{-1, 0.4, 2, 0.7}') $$) / (SELECT count(*) FROM abacus_ray('field', '{-1, 0.4}', '{1, 0.1}')),
     '>', 0.5::float8, '... nor too few');
 
+-- lines do not depend on the history of a mesh, to the last bit
+CREATE FUNCTION pg_temp.halton(i integer, base integer) RETURNS float8 LANGUAGE sql IMMUTABLE AS $$
+    SELECT sum((i / (base ^ k)::integer % base) / (base ^ (k + 1))) FROM generate_series(0, 9) AS k $$;
+CREATE TEMP TABLE crowd AS SELECT i AS id, pg_temp.halton(i, 2) AS x, pg_temp.halton(i, 3) AS y, pg_temp.halton(i, 5) AS z, sin(i) AS value
+    FROM generate_series(1, 3000) AS i;
+SELECT abacus_triangulate('crowded', 'TABLE crowd', '{value}', 3) > 0;
+SELECT abacus_triangulate('grown', 'SELECT * FROM crowd WHERE id % 3 > 0 ORDER BY sin(id)', '{value}', 3) > 0;
+SELECT abacus_insert('grown', 'SELECT * FROM crowd WHERE id % 3 = 0') = 1000;
+SELECT results_eq($$ SELECT (enters, leaves, v0, v1, v2, v3)::text FROM generate_series(1, 9) AS i, abacus_ray('grown', '{0, 0, 0}', ARRAY[1, i / 10.0, 1 / (1.0 + i)]) AS r $$,
+    $$ SELECT (enters, leaves, v0, v1, v2, v3)::text FROM generate_series(1, 9) AS i, abacus_ray('crowded', '{0, 0, 0}', ARRAY[1, i / 10.0, 1 / (1.0 + i)]) AS r $$,
+    'rays through a mesh that has grown');
+SELECT results_eq($$ SELECT p::text FROM abacus_profile('grown', '{0, 0, 0, 0.9, 0.7, 0.3, 0.1, 0.8, 0.9}') AS p $$,
+    $$ SELECT p::text FROM abacus_profile('crowded', '{0, 0, 0, 0.9, 0.7, 0.3, 0.1, 0.8, 0.9}') AS p $$, '... and profiles');
+
 -- a cancelled statement ends soon
 CREATE FUNCTION pg_temp.is_cancelled(query text) RETURNS boolean LANGUAGE plpgsql AS $$
 BEGIN

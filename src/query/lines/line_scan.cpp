@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <numeric>
 
 namespace abacus {
 
@@ -65,15 +66,24 @@ void LineScan<D>::fill(Crossing<D> &crossing, Handle h, const FacetPlace<D> &pla
     double least = INFINITY, greatest = -INFINITY;
     crossing.is_end = false;
     crossing.at = 0;
+    // In the order of the points: sums do not depend on that of a simplex's corners.
+    std::array<int, D> order;
+    std::iota(order.begin(), order.end(), 0);
+    const auto point = [&](int i) -> const Point<D> & {
+        return cache_.point(s.vertex[place.corner[i]]);
+    };
+    std::sort(order.begin(), order.end(),
+              [&](int i, int j) { return lexicographically_less<D>(point(i), point(j)); });
     for (int i = 0; i < D; ++i) {
-        const VertexIndex v = s.vertex[place.corner[i]];
+        const int from = order[i];
+        const VertexIndex v = s.vertex[place.corner[from]];
         crossing.corner[i] = cache_.point(v);
         crossing.value[i] =
             attribute_ < 0 ? 0 : reader_.vertex_values().value(cache_.vertices(), v, attribute_);
-        crossing.weight[i] = place.weight[i];
-        if (place.weight[i] == 0) continue;
+        crossing.weight[i] = place.weight[from];
+        if (crossing.weight[i] == 0) continue;
         const double along = line_.along(crossing.corner[i]);
-        crossing.at += place.weight[i] * along;
+        crossing.at += crossing.weight[i] * along;
         least = std::min(least, along);
         greatest = std::max(greatest, along);
     }
