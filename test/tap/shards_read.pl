@@ -144,9 +144,9 @@ for my $rows ('SELECT code, v0, v1, v2, h FROM %s_cells', 'SELECT code, v0 FROM 
 	my ($a, $b) = (sprintf($rows, 'many'), sprintf($rows, 'one'));
 	is($node->safe_psql('postgres', "SELECT (SELECT count(*) FROM ($a EXCEPT ALL $b) AS x), (SELECT count(*) FROM ($b EXCEPT ALL $a) AS y), (SELECT count(*) > 0 FROM ($b) AS z)"), '0|0|t', $rows);
 }
+like($node->safe_psql('postgres', 'ANALYZE many_cells; EXPLAIN SELECT * FROM many_cells'), qr/rows=39\d\d\d /, 'how many rows there are');
 same('pages that make room for others, work_mem 64 kB', map { $_, $_ } "abacus_contours(MESH, 40, attribute => 'h')", "abacus_edges(MESH, '{0.2,0.2}'::float8[], '{0.8,0.7}'::float8[])",
 	"(SELECT i, abacus_interpolate(MESH, (i * 0.618) % 1, (i * 0.414) % 1, 'h', method => 'natural') FROM generate_series(1, 300) AS i)");
-is($node->safe_psql('postgres', "SELECT abacus_unpublish('many') = abacus_unpublish('one')"), 't', 'unpublished');
 
 sub fails
 {
@@ -170,6 +170,13 @@ fails("SET ROLE reader; SELECT count(*) FROM abacus_edges('many')", qr/42501.*pe
 fails("SET ROLE reader; SELECT count(*) FROM abacus_edges('many'); ", qr/42501/, 'not after an error either');
 fails("SELECT count(*) FROM abacus_edges('many'); SET ROLE reader; SELECT count(*) FROM abacus_edges('many')", qr/42501.*permission denied for foreign server/, 'not with pages that another user has read');
 fails("SELECT abacus_walk('many', abacus_locate('many', 0.5, 0.5), 0); SET ROLE reader; SELECT abacus_locate('many', 0.5, 0.5)", qr/42501.*permission denied for foreign server/, 'nor in the cache');
+# A user who may use the servers, as somebody who may not read there.
+$node->safe_psql('postgres', "CREATE USER poor; CREATE USER other SUPERUSER");
+$node->safe_psql('postgres', "CREATE USER MAPPING FOR other SERVER s$_ OPTIONS (user 'poor')") for 1 .. $shards;
+for my $call ("count(*) FROM abacus_edges('many')", "abacus_locate('many', 0.5, 0.5) IS NULL", "count(*) FROM many_points")
+{
+	fails("SELECT $call; SET ROLE other; SELECT $call", qr/42501.*permission denied for table abacus_/, "no right on the servers: $call");
+}
 fails("SET statement_timeout = 100; SELECT count(*) FROM generate_series(1, 1000) AS i, abacus_edges('many')", qr/57014/, 'a timeout');
 
 # What servers send is not trusted: forged pages are data_corrupted.
@@ -200,5 +207,6 @@ $node->safe_psql('shard3', "ALTER TABLE hidden RENAME TO $shard");
 $node->psql('postgres', "BEGIN; SAVEPOINT a; SELECT abacus_locate('many', 0.5, 0.5) IS NULL; SELECT 1 / 0; ROLLBACK TO a; $broken; SELECT abacus_locate('many', 0.2, 0.7) IS NULL; COMMIT",
 	stdout => \$out, stderr => \$err, on_error_stop => 0);
 like("$out $err", qr/^f\nf.*read/s, 'after an error in a subtransaction');
+is($node->safe_psql('postgres', "SELECT abacus_unpublish('many') = abacus_unpublish('one')"), 't', 'unpublished');
 $node->safe_psql('postgres', "SELECT abacus_shard_drop('many')");
 done_testing();

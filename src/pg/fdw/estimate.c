@@ -28,6 +28,8 @@
 /* For a window or a geometry that is known only when the query runs. */
 #define UNKNOWN_SHARE 0.001
 
+#define SIMPLICES_OF_PAGE 600.0
+
 /* The number of codes. */
 #define CODES_IN_THE_PLANE 0x1p62
 #define CODES_IN_SPACE 0x1p63
@@ -35,17 +37,22 @@
 static bool
 may_read(Oid mesh, Oid user)
 {
-	return ActiveSnapshotSet() && mesh_of_table(mesh) == mesh &&
+	return ActiveSnapshotSet() && (mesh_of_table(mesh) == mesh || mesh_is_sharded(mesh)) &&
 		pg_class_aclcheck(mesh, user, ACL_SELECT) == ACLCHECK_OK &&
 		check_enable_rls(mesh, user, true) != RLS_ENABLED;
 }
 
+/* Those of a mesh over several servers are not here to be counted. */
 static double
-pages_of(Oid mesh)
+pages_of(Oid mesh, const abacus_census *census)
 {
-	Relation	table = relation_open(mesh, AccessShareLock);
-	double		pages = RelationGetNumberOfBlocks(table);
+	Relation	table;
+	double		pages;
 
+	if (mesh_is_sharded(mesh))
+		return Max(1, (double) census->simplices / SIMPLICES_OF_PAGE);
+	table = relation_open(mesh, AccessShareLock);
+	pages = RelationGetNumberOfBlocks(table);
 	relation_close(table, NoLock);
 	return Max(1, pages);
 }
@@ -68,7 +75,7 @@ estimate_mesh(const Published *published, Oid user, MeshSize *size)
 						   : reader->header.facts.census.vertices);
 	memcpy(size->lower, reader->header.facts.form.lower, sizeof(size->lower));
 	memcpy(size->upper, reader->header.facts.form.upper, sizeof(size->upper));
-	size->pages = pages_of(published->mesh);
+	size->pages = pages_of(published->mesh, &reader->header.facts.census);
 	host_destroy(reader->host);
 }
 

@@ -244,14 +244,17 @@ static const HostPageFunctions no_points = {
 
 /* ---- The header ----------------------------------------------------------------------------- */
 
-/* A number that changes with the state of the mesh. */
+/*
+ * A number that changes with the state of the mesh, and with the user: what one may read on the servers, another
+ * may not.
+ */
 static uint64
 stamp_of(const Generation *generation)
 {
 	uint64		stamp = hash_bytes_extended((const unsigned char *) generation->token, (int) strlen(generation->token),
 											(uint64) generation->number);
 
-	return stamp;
+	return hash_uint32_extended(GetUserId(), stamp);
 }
 
 static void
@@ -295,10 +298,16 @@ count_census(RemotePages *remote, abacus_census *census)
 		census->vertices = 0;
 }
 
-/* The header of the mesh in its new state, for which nothing is known yet. */
+/* The header of the mesh in its new state. What shards own is counted once in a session for each state. */
 static void
 make_header(RemotePages *remote, uint64 stamp)
 {
+	static struct
+	{
+		Oid			mesh;
+		uint64		stamp;
+		abacus_census census;
+	}			counted;
 	abacus_header *header = remote->header;
 	abacus_facts *facts = &header->facts;
 
@@ -308,8 +317,16 @@ make_header(RemotePages *remote, uint64 stamp)
 	read_names(header, &remote->generation);
 	facts->columns.apart = abacus_are_apart(facts->form.dimension, facts->columns.attributes);
 	facts->standing = ABACUS_DELAUNAY;
-	if (remote->generation.points > 0)
-		count_census(remote, &facts->census);
+	if (counted.mesh != remote->mesh || counted.stamp != stamp)
+	{
+		counted.mesh = InvalidOid;
+		MemSet(&counted.census, 0, sizeof(counted.census));
+		if (remote->generation.points > 0)
+			count_census(remote, &counted.census);
+		counted.mesh = remote->mesh;
+		counted.stamp = stamp;
+	}
+	facts->census = counted.census;
 	header->stamp = stamp;
 }
 
