@@ -103,7 +103,7 @@ rehearse() {
     local status=0
     make_copy
     in_copy next "${version%.*}.$((${version##*.} + 1))"
-    (cd "$copy" && scripts/dev.sh one update.pl) || status=1
+    (cd "$copy" && scripts/dev.sh one test/tap/update.pl) || status=1
     (cd "$copy" && as_root make -s -C build/extension -f "$copy/Makefile.pgxs" PG_CONFIG="$PG_CONFIG" uninstall >/dev/null)
     install_extension
     return "$status"

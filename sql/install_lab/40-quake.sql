@@ -9,7 +9,8 @@ DECLARE
     signature text := format('%I.abacus_quake(double precision, double precision)', current_schema());
 BEGIN
     IF EXISTS (SELECT FROM pg_proc AS p JOIN pg_roles AS r ON r.oid = proowner JOIN pg_language AS l ON l.oid = prolang
-               WHERE p.oid = to_regprocedure(signature) AND rolsuper AND lanname = 'c' AND prosrc = 'abacus_sql_quake') THEN
+               WHERE p.oid = to_regprocedure(signature) AND rolsuper AND lanname = 'c' AND prosrc = 'abacus_sql_quake'
+                   AND NOT EXISTS (SELECT FROM pg_depend WHERE classid = 'pg_proc'::regclass AND objid = p.oid AND deptype = 'e')) THEN
         EXECUTE 'ALTER EXTENSION abacus_lab ADD FUNCTION ' || signature;
     END IF;
 END $$;
