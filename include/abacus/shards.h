@@ -87,6 +87,21 @@ ABACUS_API abacus_status abacus_exports_next(abacus_exports *exports, uint32_t *
 /* In place of all of them: how many simplices of the mesh the shard owns. */
 ABACUS_API abacus_status abacus_exports_count(abacus_exports *exports, uint64_t *owned,
 											  abacus_error *error);
+/*
+ * Gets a vertex that simplices around a place say, and the shard that needs it. May fail as a host
+ * function may.
+ */
+typedef abacus_host_status (*abacus_export_report)(void *context, uint32_t shard,
+												   const abacus_vertex *vertex);
+/*
+ * The same for the simplices with a vertex at a place (`dimension` finite doubles). After a change
+ * it is enough to ask about the places of new vertices, and of all that had a simplex with one that
+ * has gone, if the mesh had simplices before and has some now; else abacus_exports_next says what
+ * is to be sent.
+ */
+ABACUS_API abacus_status abacus_exports_around(abacus_exports *exports, const double *place,
+											   abacus_export_report report, void *context,
+											   abacus_error *error);
 ABACUS_API void abacus_exports_close(abacus_exports *exports);
 
 /* ---- A shard's part of the mesh ---------------------------------------------- */

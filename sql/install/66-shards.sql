@@ -19,7 +19,8 @@ CREATE TYPE abacus_shard_generation AS (
     simplices bigint,
     names_given boolean,
     domain_given boolean,
-    srid integer);
+    srid integer,
+    versions bigint[]);
 COMMENT ON TYPE abacus_shard_generation IS
     'row of the coordinator''s table of a mesh over several servers: what one build has made of it; readers see the newest row whose phase is published';
 COMMENT ON COLUMN abacus_shard_generation.generation IS 'number of the build, from 0';
@@ -41,6 +42,7 @@ COMMENT ON COLUMN abacus_shard_generation.simplices IS 'simplices of the mesh';
 COMMENT ON COLUMN abacus_shard_generation.names_given IS 'whether the names were given when the mesh was created';
 COMMENT ON COLUMN abacus_shard_generation.domain_given IS 'whether the domain was given when the mesh was created';
 COMMENT ON COLUMN abacus_shard_generation.srid IS 'spatial reference system of the points; 0: not known';
+COMMENT ON COLUMN abacus_shard_generation.versions IS 'how many changes of the published mesh each shard has had';
 
 CREATE FUNCTION abacus_shard_create(
     mesh text,
@@ -74,6 +76,13 @@ LANGUAGE C VOLATILE STRICT PARALLEL UNSAFE;
 COMMENT ON FUNCTION abacus_shard_drop(regclass) IS
     'drops a mesh over several servers, with its tables there: they go when the transaction commits. A warning names those that remain, because a server cannot be reached then. Errors: 42809 not a mesh over several servers, 42501 not its owner, 08001 no connection, 0A000 in a savepoint after another one, or before PREPARE TRANSACTION';
 
+CREATE FUNCTION abacus_shard_resolve(mesh regclass)
+RETURNS bigint
+AS 'MODULE_PATHNAME', 'abacus_sql_shard_resolve'
+LANGUAGE C VOLATILE STRICT PARALLEL UNSAFE COST 100000;
+COMMENT ON FUNCTION abacus_shard_resolve(regclass) IS
+    'ends changes of a mesh over several servers that a failure has left prepared on its servers, and returns how many there were. They are committed if the transaction on the coordinator was, else rolled back; those of transactions in progress are left alone. Errors: 42809 not a mesh over several servers, 42501 no privilege, also of the user of the user mapping, who must be the one of the change or a superuser, 08001 no connection';
+
 CREATE FUNCTION abacus_shards(
     mesh regclass,
     OUT shard integer,
@@ -90,7 +99,7 @@ RETURNS SETOF record
 AS 'MODULE_PATHNAME', 'abacus_sql_shards'
 LANGUAGE C VOLATILE STRICT PARALLEL UNSAFE COST 100000 ROWS 4;
 COMMENT ON FUNCTION abacus_shards(regclass) IS
-    'the shards of a mesh over several servers, of its newest build. Column shard_mesh is the mesh on the server; first and "end" are the codes that the shard owns, the latter excluded; state is the phase of the build, or absent; doing is what a change of the mesh does now; guests are vertices of other shards. Units: bytes of all tables there. Errors: 42809 not a mesh over several servers';
+    'the shards of a mesh over several servers, of its newest build. Column shard_mesh is the mesh on the server; first and "end" are the codes that the shard owns, the latter excluded; state is the phase of the build, or absent; doing is what a change of the mesh does now, or the name under which one is prepared, which keeps others waiting; guests are vertices of other shards. Units: bytes of all tables there. Errors: 42809 not a mesh over several servers';
 
 -- What the coordinator calls on the servers.
 
@@ -184,6 +193,50 @@ AS 'MODULE_PATHNAME', 'abacus_sql_shard_exports'
 LANGUAGE C STABLE STRICT PARALLEL SAFE COST 100000 ROWS 10000;
 COMMENT ON FUNCTION abacus_shard_exports(regclass, bigint[], integer, double precision[], double precision[]) IS
     'for the coordinator of a mesh over several servers: the vertices of a shard that other shards need, and which shard. A vertex may come several times. Shapes: borders are codes that ascend; least and greatest are corners of a box around all points. Units: those of the coordinates. Errors: 22023 a point outside that box, or bad borders';
+
+CREATE FUNCTION abacus_shard_exports_around(
+    mesh regclass,
+    borders bigint[],
+    own integer,
+    "least" double precision[],
+    "greatest" double precision[],
+    query text,
+    OUT shard integer,
+    OUT id bigint,
+    OUT x double precision,
+    OUT y double precision,
+    OUT z double precision,
+    OUT attributes double precision[])
+RETURNS SETOF record
+AS 'MODULE_PATHNAME', 'abacus_sql_shard_exports_around'
+LANGUAGE C VOLATILE STRICT PARALLEL UNSAFE COST 1000 ROWS 100;
+COMMENT ON FUNCTION abacus_shard_exports_around(regclass, bigint[], integer, double precision[], double precision[], text) IS
+    'for the coordinator of a mesh over several servers: of the vertices of a shard that other shards need, those that simplices around some vertices call for. Shapes: the query returns id, x, y[, z] of these, by position. Units: those of the coordinates. Errors: as of abacus_shard_exports';
+
+CREATE FUNCTION abacus_shard_change(
+    mesh regclass,
+    query text,
+    how text,
+    "first" bigint,
+    "last" bigint,
+    with_simplices boolean,
+    OUT created boolean,
+    OUT code bigint,
+    OUT v0 bigint,
+    OUT v1 bigint,
+    OUT v2 bigint,
+    OUT v3 bigint,
+    OUT corners double precision[],
+    OUT points bigint,
+    OUT more bigint,
+    OUT duplicates bigint,
+    OUT gained bigint,
+    OUT is_all_new boolean)
+RETURNS SETOF record
+AS 'MODULE_PATHNAME', 'abacus_sql_shard_change'
+LANGUAGE C VOLATILE STRICT PARALLEL UNSAFE COST 1000 ROWS 100;
+COMMENT ON FUNCTION abacus_shard_change(regclass, text, text, bigint, bigint, boolean) IS
+    'for the coordinator of a mesh over several servers: inserts points into a shard, or deletes them, and keeps the domain. The last row has what happened: points of the query or deleted, points and duplicates more than before, simplices gained with codes from the first to the last, and whether the shard had no simplices before or has none now. With with_simplices, rows before it are the simplices created and removed. Shapes: the query as of abacus_insert; how is delete or, of abacus_insert, keep, replace or error; corners as of abacus_insert_returning. Errors: those of abacus_insert and abacus_delete';
 
 CREATE FUNCTION abacus_shard_settled(
     mesh regclass,

@@ -166,6 +166,19 @@ abacus_status abacus_exports_count(abacus_exports *exports, uint64_t *owned, aba
     });
 }
 
+abacus_status abacus_exports_around(abacus_exports *exports, const double *place,
+                                    abacus_export_report report, void *context,
+                                    abacus_error *error) {
+    return abacus::guard(error, [&] {
+        exports->exports.visit([&]<int D>(abacus::Exports<D> &opened) {
+            opened.around(point_at<D>(place), [&](std::uint32_t to, const abacus_vertex &vertex) {
+                abacus::host::require(report(context, to, &vertex));
+            });
+        });
+        return ABACUS_OK;
+    });
+}
+
 void abacus_exports_close(abacus_exports *exports) { abacus::destroy_handle(exports); }
 
 namespace {

@@ -7,12 +7,13 @@
 
 #include "pg/base/settings.h"
 #include "pg/base/sql_function.h"
+#include "pg/connect/connection.h"
 #include "pg/fdw/published.h"
 #include "pg/levels/levels_table.h"
 #include "pg/mesh/mesh_cache.h"
 #include "pg/port/port.h"
-#include "pg/shards/connection.h"
 #include "pg/remote/remote_pages.h"
+#include "pg/shards/shard_transaction.h"
 #include "pg/space/vacuum.h"
 #include "pg/track/pending.h"
 #include "pg/track/tracking.h"
@@ -42,6 +43,7 @@ _PG_init(void)
 	pending_init();
 	connection_init();
 	remote_pages_init();
+	shard_transaction_init();
 }
 
 /* The version of the module, which may differ from that of the extension's SQL objects. */

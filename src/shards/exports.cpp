@@ -8,22 +8,28 @@
 
 namespace abacus {
 
+namespace {
+
+/// The cache for places.
+constexpr std::size_t reader_bytes = std::size_t{16} << 20;
+
+} // namespace
+
 template <int D>
 Exports<D>::Exports(const Host &host, const abacus_facts &facts,
                     std::span<const std::uint64_t> borders, std::uint32_t shard,
                     const abacus_box &extent)
-    : shard_(shard), extent_(given_box<D>(extent)),
+    : host_(host), facts_(facts), shard_(shard), extent_(given_box<D>(extent)),
       regions_(host, domain_of<D>(facts.form), borders, extent_),
-      attributes_(facts.columns.attributes), simplices_(facts.census.simplices),
+      attributes_(facts.columns.attributes),
       waiting_(host, facts.columns.attributes, facts.census.inserted, facts.census.staged),
       next_receiver_(regions_.shards()), values_(host, facts), of_vertex_(host), links_(host),
       slots_(host), border_(host), on_border_(host), owners_(host), to_send_(host) {
     of_vertex_.resize(attributes_);
-    if (simplices_ > 0) pages_.emplace(host, facts, regions_, shard);
 }
 
 template <int D> bool Exports<D>::next(std::uint32_t &to, abacus_vertex &vertex) {
-    if (!pages_) return next_waiting(to, vertex);
+    if (facts_.census.simplices == 0) return next_waiting(to, vertex);
     while (at_ == to_send_.size()) {
         if (!advance()) return false;
         collect();
@@ -40,26 +46,27 @@ template <int D> bool Exports<D>::next(std::uint32_t &to, abacus_vertex &vertex)
     return true;
 }
 
+template <int D> BorderPages<D> &Exports<D>::pages() {
+    if (!pages_) pages_.emplace(host_, facts_, regions_, shard_);
+    return *pages_;
+}
+
 template <int D> bool Exports<D>::advance() {
-    if (!pages_->advance()) return false;
+    if (!pages().advance()) return false;
     const PageView<D> &page = pages_->page();
     owners_.resize(static_cast<std::size_t>(page.vertices()));
-    for (int v = 0; v < page.vertices(); ++v) {
-        if (!extent_.contains(page.point(v)))
-            throw Error(ABACUS_ERROR_ARGUMENT, "a point lies outside the extent of all points",
-                        "Its id is " + std::to_string(page.id(v)) + ".", {});
-        owners_[static_cast<std::size_t>(v)] = regions_.owner(page.point(v));
-    }
+    for (int v = 0; v < page.vertices(); ++v)
+        owners_[static_cast<std::size_t>(v)] = owner(page.point(v), page.id(v));
     return true;
 }
 
 template <int D> std::uint64_t Exports<D>::count_owned() {
     std::uint64_t others = 0; // simplices: each has a corner of another shard, so it is near
-    while (pages_ && advance()) {
+    while (facts_.census.simplices > 0 && advance()) {
         for (int simplex = 0; simplex < pages_->page().simplices(); ++simplex)
             others += !pages_->page().is_ghost(simplex) && owner_of(simplex) != shard_;
     }
-    return simplices_ - others;
+    return facts_.census.simplices - others;
 }
 
 /// Finds what the page's simplices say, each vertex once for a shard.
@@ -78,19 +85,29 @@ template <int D> void Exports<D>::collect(int simplex) {
     const PageView<D> &page = pages_->page();
     const bool is_ghost = page.is_ghost(simplex);
     Corners<D> corners{};
-    bool has_own = false;
+    std::array<std::uint32_t, D + 1> owners{};
     for (int i = 0; i < D + !is_ghost; ++i) {
         const int v = page.corner(simplex, i);
         corners[i] = &page.point(v);
-        const std::uint32_t owner = owners_[static_cast<std::size_t>(v)];
-        has_own |= owner == shard_;
-        if (owner != shard_) send(simplex, owner);
+        owners[i] = owners_[static_cast<std::size_t>(v)];
+    }
+    each_receiver(corners, owners, is_ghost, [&](std::uint32_t to) { send(simplex, to); });
+}
+
+template <int D>
+template <class Send>
+void Exports<D>::each_receiver(const Corners<D> &corners,
+                               const std::array<std::uint32_t, D + 1> &owners, bool is_ghost,
+                               Send send) const {
+    bool has_own = false;
+    for (int i = 0; i < D + !is_ghost; ++i) {
+        has_own |= owners[i] == shard_;
+        if (owners[i] != shard_) send(owners[i]);
     }
     if (!has_own) return;
     std::uint32_t last = shard_; // that got them; regions come in stretches
     regions_.each_met(corners, is_ghost, [&](std::uint32_t met) {
-        if (met == shard_ || met == last) return;
-        send(simplex, last = met);
+        if (met != shard_ && met != last) send(last = met);
     });
 }
 
@@ -145,6 +162,90 @@ template <int D> void Exports<D>::send(int simplex, std::uint32_t to) {
     for (int i = 0; i < D + !page.is_ghost(simplex); ++i) {
         const auto v = static_cast<std::uint32_t>(page.corner(simplex, i));
         if (owners_[v] != to) to_send_.push_back(std::uint64_t{to} << 32 | v);
+    }
+}
+
+template <int D> std::uint32_t Exports<D>::owner(const Point<D> &p, std::int64_t id) const {
+    if (!extent_.contains(p))
+        throw Error(ABACUS_ERROR_ARGUMENT, "a point lies outside the extent of all points",
+                    "Its id is " + std::to_string(id) + ".", {});
+    return regions_.owner(p);
+}
+
+/// All corners of a cached simplex but those that the receiver owns.
+template <int D> void Exports<D>::send_cached(Handle h, std::uint32_t to) {
+    const Cache<D> &cache = reader_->cache();
+    const Simplex<D> &s = cache.simplex(h);
+    for (int i = 0; i < s.finite_vertices(); ++i)
+        if (regions_.owner(cache.point(s.vertex[i])) != to)
+            to_send_.push_back(std::uint64_t{to} << 32 | to_number(s.vertex[i]));
+}
+
+template <int D> std::uint32_t Exports<D>::owner_cached(Handle h) {
+    const Cache<D> &cache = reader_->cache();
+    const Simplex<D> &s = cache.simplex(h);
+    std::uint32_t greatest = 0;
+    for (int i = 0; i < s.finite_vertices(); ++i)
+        greatest =
+            std::max(greatest, owner(cache.point(s.vertex[i]), cache.vertices().id(s.vertex[i])));
+    return greatest;
+}
+
+/// The rules for the star of the vertex at p, which the first simplex has, and rule 3 for its
+/// neighbours.
+template <int D> void Exports<D>::collect_around(const Point<D> &p, Handle first) {
+    Cache<D> &cache = reader_->cache();
+    const auto has_p = [&](Handle h, int facet) {
+        const VertexIndex v = cache.simplex(h).vertex[facet];
+        return v == infinite_vertex || cache.point(v) != p;
+    };
+    reader_->flood().from(cache, first, has_p, [](Handle) { return true; });
+    for (const Handle met : reader_->flood().met()) {
+        const Simplex<D> s = cache.simplex(met);
+        Corners<D> corners{};
+        std::array<std::uint32_t, D + 1> owners{};
+        for (int i = 0; i < s.finite_vertices(); ++i) {
+            corners[i] = &cache.point(s.vertex[i]);
+            owners[i] = owner(*corners[i], cache.vertices().id(s.vertex[i]));
+        }
+        each_receiver(corners, owners, s.is_ghost(),
+                      [&](std::uint32_t to) { send_cached(met, to); });
+        const std::uint32_t here = owner_cached(met);
+        for (int facet = 0; facet <= D; ++facet) {
+            bool has_own = false;
+            for (int i = 0; i < s.finite_vertices(); ++i)
+                has_own |= i != facet && owners[i] == shard_;
+            if (!has_own) continue;
+            const Handle neighbour = link_simplex(cache.cross(met, facet));
+            const std::uint32_t there = owner_cached(neighbour);
+            if (there != shard_) send_cached(met, there);
+            if (here != shard_) send_cached(neighbour, here);
+        }
+    }
+}
+
+template <int D> void Exports<D>::around(const Point<D> &p, const Visit &visit) {
+    if (!reader_) reader_.emplace(host_, facts_, reader_bytes);
+    Cache<D> &cache = reader_->cache();
+    const Handle first = reader_->simplex_around(p);
+    if (first == no_handle) return;
+    const Simplex<D> &found = cache.simplex(first);
+    if (std::none_of(found.vertex.begin(), found.vertex.end(),
+                     [&](VertexIndex v) { return v != infinite_vertex && cache.point(v) == p; }))
+        return;
+    to_send_.clear();
+    collect_around(p, first);
+    std::sort(to_send_.begin(), to_send_.end());
+    to_send_.resize(
+        static_cast<std::size_t>(std::unique(to_send_.begin(), to_send_.end()) - to_send_.begin()));
+    for (const std::uint64_t pair : to_send_) {
+        const auto v = static_cast<VertexIndex>(pair & ~std::uint32_t{0});
+        abacus_vertex vertex{};
+        vertex.id = vertex.vertex = cache.vertices().id(v);
+        std::copy_n(cache.point(v).begin(), D, vertex.point);
+        values_.all(cache.vertices(), v, of_vertex_.data());
+        vertex.attributes = of_vertex_.data();
+        visit(static_cast<std::uint32_t>(pair >> 32), vertex);
     }
 }
 

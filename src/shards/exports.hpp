@@ -20,6 +20,7 @@
 
 #include "mesh/inner_links.hpp"
 #include "points/vertex_reader.hpp"
+#include "query/locate/reader.hpp"
 #include "query/pages/vertex_values.hpp"
 #include "shards/border_pages.hpp"
 
@@ -42,7 +43,15 @@ public:
     /// greatest vertex it does.
     std::uint64_t count_owned();
 
+    /// What the simplices with a vertex at p say, of a shard that has any: calls visit(to, vertex).
+    /// After a change these are enough for all its new vertices, and all that had a simplex with
+    /// one that has gone.
+    using Visit = std::function<void(std::uint32_t to, const abacus_vertex &vertex)>;
+    void around(const Point<D> &p, const Visit &visit);
+
 private:
+    /// The pages near other shards' regions; they are searched for once needed.
+    BorderPages<D> &pages();
     /// Goes to the next page; false after the last.
     bool advance();
     void collect();
@@ -52,24 +61,34 @@ private:
     void send(int simplex, std::uint32_t to);
     void send_across(int simplex, int facet, std::uint32_t beyond);
     bool next_waiting(std::uint32_t &to, abacus_vertex &vertex);
+    std::uint32_t owner(const Point<D> &p, std::int64_t id) const;
+    /// Rules 1 and 2 for a simplex: calls send(to) where all its corners go.
+    template <class Send>
+    void each_receiver(const Corners<D> &corners, const std::array<std::uint32_t, D + 1> &owners,
+                       bool is_ghost, Send send) const;
+    void collect_around(const Point<D> &p, Handle first);
+    void send_cached(Handle h, std::uint32_t to);
+    std::uint32_t owner_cached(Handle h);
 
+    const Host &host_;
+    const abacus_facts facts_;
     const std::uint32_t shard_;
     const Box<D> extent_;
     const ShardRegions<D> regions_;
     const unsigned attributes_;
-    const std::uint64_t simplices_;
-    std::optional<BorderPages<D>> pages_; // if there are any
+    std::optional<BorderPages<D>> pages_; // once needed
     VertexReader<D> waiting_;
     std::uint32_t next_receiver_; // of the point that waits
     VertexValues<D> values_;
-    Arena<double> of_vertex_;      // its attributes
-    InnerLinks<D> links_;          // of a page across a border
-    Arena<Simplex<D>> slots_;      //
-    Arena<Link> border_;           //
-    Arena<bool> on_border_;        //
-    Arena<std::uint32_t> owners_;  // of the page's vertices
-    Arena<std::uint64_t> to_send_; // from the page: shards, and vertices by number
-    std::size_t at_ = 0;           // in it
+    Arena<double> of_vertex_;         // its attributes
+    InnerLinks<D> links_;             // of a page across a border
+    Arena<Simplex<D>> slots_;         //
+    Arena<Link> border_;              //
+    Arena<bool> on_border_;           //
+    Arena<std::uint32_t> owners_;     // of the page's vertices
+    Arena<std::uint64_t> to_send_;    // from the page: shards, and vertices by number
+    std::size_t at_ = 0;              // in it
+    std::optional<Reader<D>> reader_; // once places are asked for
 };
 
 extern template class Exports<2>;

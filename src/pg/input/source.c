@@ -155,6 +155,17 @@ source_first_attribute(const Source *source, uint32 dimension)
 	return row_packer_takes_geometry(plan_source(source)->resultDesc) ? 2 : 1 + (int) dimension;
 }
 
+/* An error if there are none after the coordinates. */
+void
+source_require_attributes(const Source *source, uint32 dimension)
+{
+	if (source_columns(source) <= source_first_attribute(source, dimension))
+		ereport(ERROR,
+				(errcode(ERRCODE_DATATYPE_MISMATCH),
+				 errmsg("source query has no column for an attribute"),
+				 errhint("After the id and the coordinates, add columns that are named after attributes.")));
+}
+
 const char *
 source_column_name(const Source *source, int column)
 {

@@ -22,6 +22,7 @@ typedef struct Source
 extern void source_prepare(Source *source, const char *query);
 extern int	source_columns(const Source *source);
 extern const char *source_column_name(const Source *source, int column);
+extern void source_require_attributes(const Source *source, uint32 dimension);
 extern int	source_first_attribute(const Source *source, uint32 dimension);
 extern void source_open(Source *source, abacus_names names, bool takes_srid);
 extern void source_open_places(Source *source, abacus_names names);

@@ -27,7 +27,7 @@
 #define LEVEL_COLUMNS 6
 #define LEVELS_TABLE_SUFFIX "_levels"
 #define SHARD_GENERATION_TYPE "abacus_shard_generation"
-#define SHARD_GENERATION_COLUMNS 19
+#define SHARD_GENERATION_COLUMNS 20
 
 /* What a caller intends to do, which decides the lock and the privileges it needs. */
 typedef enum MeshAccess

@@ -17,9 +17,9 @@
 #include "utils/memutils.h"
 
 #include "pg/mesh/mesh_pages.h"
-#include "pg/shards/generation.h"
 #include "pg/remote/page_shelf.h"
 #include "pg/remote/remote_pages.h"
+#include "pg/shards/generation_links.h"
 #include "pg/shards/shard_sql.h"
 
 #define CODE_LIMIT UINT64CONST(0x7FFFFFFFFFFFFFFF)
@@ -137,6 +137,7 @@ ask_for_pages(RemotePages *remote, abacus_page_kind kind, const abacus_key *key)
 	*arrival = (Arrival) {
 		.remote = remote,.shelf = &pages->shelf,.shard = shard
 	};
+	generation_require_seen(&remote->generation, &remote->links, shard);
 	link_send(&remote->links, shard,
 			  psprintf("SELECT code, part, page FROM abacus_shard_pages('%s', %u, %s, " INT64_FORMAT ", " INT64_FORMAT ", %zu)",
 					   generation_mesh(&remote->generation, shard), kind, shard_sql_stretch(&remote->generation, shard),
@@ -254,7 +255,9 @@ stamp_of(const Generation *generation)
 	uint64		stamp = hash_bytes_extended((const unsigned char *) generation->token, (int) strlen(generation->token),
 											(uint64) generation->number);
 
-	return hash_uint32_extended(GetUserId(), stamp);
+	stamp = hash_uint32_extended(GetUserId(), stamp);
+	return hash_bytes_extended((const unsigned char *) generation->versions,
+							   generation->shards * (int) sizeof(generation->versions[0]), stamp);
 }
 
 static void

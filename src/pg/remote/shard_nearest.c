@@ -19,6 +19,7 @@
 #include "pg/input/source.h"
 #include "pg/mesh/mesh.h"
 #include "pg/remote/shard_read.h"
+#include "pg/shards/generation_links.h"
 #include "pg/shards/shard_sql.h"
 
 #define MOST_PLACES 8192

@@ -18,6 +18,7 @@
 #include "pg/input/source.h"
 #include "pg/remote/shard_call.h"
 #include "pg/remote/shard_read.h"
+#include "pg/shards/generation_links.h"
 #include "pg/shards/shard_sql.h"
 
 /* ---- Places --------------------------------------------------------------------------------- */

@@ -16,6 +16,7 @@
 #include "pg/mesh/mesh_cache.h"
 #include "pg/remote/shard_call.h"
 #include "pg/remote/shard_read.h"
+#include "pg/shards/generation_links.h"
 #include "pg/shards/shard_sql.h"
 
 /* Whether a function's first argument is a mesh over several servers. */

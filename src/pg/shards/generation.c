@@ -19,6 +19,8 @@
 #include "pg/shards/generation.h"
 #include "pg/shards/shard_owner.h"
 
+#define LONGEST_TOKEN 32
+
 /* Columns of type abacus_shard_generation */
 enum
 {
@@ -41,13 +43,15 @@ enum
 	GENERATION_NAMES_GIVEN,
 	GENERATION_DOMAIN_GIVEN,
 	GENERATION_SRID,
+	GENERATION_VERSIONS,
 	GENERATION_COLUMNS
 };
 StaticAssertDecl(GENERATION_COLUMNS == SHARD_GENERATION_COLUMNS, "the columns of abacus_shard_generation");
 
 static Oid column_types[GENERATION_COLUMNS] = {
 	INT8OID, TEXTOID, TEXTOID, TEXTOID, TEXTARRAYOID, INT4OID, TEXTARRAYOID, FLOAT8ARRAYOID, FLOAT8ARRAYOID,
-	FLOAT8ARRAYOID, FLOAT8ARRAYOID, INT8ARRAYOID, INT8OID, INT4OID, INT8OID, INT8OID, BOOLOID, BOOLOID, INT4OID
+	FLOAT8ARRAYOID, FLOAT8ARRAYOID, INT8ARRAYOID, INT8OID, INT4OID, INT8OID, INT8OID, BOOLOID, BOOLOID, INT4OID,
+	INT8ARRAYOID
 };
 
 static const char *const phase_names[] = {
@@ -141,6 +145,18 @@ read_borders(Generation *generation, Datum array)
 }
 
 static void
+read_versions(Generation *generation, Datum array)
+{
+	int			count;
+	Datum	   *values = elements(generation->relid, array, INT8OID, &count);
+
+	if (count != generation->shards)
+		refuse_row(generation->relid, "There must be a version of each shard.");
+	for (int i = 0; i < count; i++)
+		generation->versions[i] = DatumGetInt64(values[i]);
+}
+
+static void
 read_row(Generation *generation, const Datum *values, const bool *isnull)
 {
 	int32		dimension = isnull[GENERATION_DIMENSION] ? 0 : DatumGetInt32(values[GENERATION_DIMENSION]);
@@ -153,7 +169,8 @@ read_row(Generation *generation, const Datum *values, const bool *isnull)
 	generation->phase = read_phase(generation->relid, TextDatumGetCString(values[GENERATION_PHASE]));
 	generation->source = isnull[GENERATION_SOURCE] ? NULL : TextDatumGetCString(values[GENERATION_SOURCE]);
 	generation->token = TextDatumGetCString(values[GENERATION_TOKEN]);
-	if (strspn(generation->token, "0123456789abcdef") != strlen(generation->token))
+	if (strspn(generation->token, "0123456789abcdef") != strlen(generation->token) ||
+		strlen(generation->token) > LONGEST_TOKEN)
 		refuse_row(generation->relid, "The token is not a hexadecimal number.");
 	generation->servers = texts(generation->relid, values[GENERATION_SERVERS], &generation->shards);
 	if (generation->shards < 1)
@@ -176,6 +193,9 @@ read_row(Generation *generation, const Datum *values, const bool *isnull)
 		read_borders(generation, values[GENERATION_BORDERS]);
 	else if (generation->phase > SHARDS_NEW)
 		refuse_row(generation->relid, "There are no borders.");
+	generation->versions = palloc0(generation->shards * sizeof(int64));
+	if (!isnull[GENERATION_VERSIONS])
+		read_versions(generation, values[GENERATION_VERSIONS]);
 	generation->points = isnull[GENERATION_POINTS] ? 0 : DatumGetInt64(values[GENERATION_POINTS]);
 	generation->rounds = isnull[GENERATION_ROUNDS] ? 0 : DatumGetInt32(values[GENERATION_ROUNDS]);
 	generation->sent = isnull[GENERATION_SENT] ? 0 : DatumGetInt64(values[GENERATION_SENT]);
@@ -190,7 +210,7 @@ read_row(Generation *generation, const Datum *values, const bool *isnull)
 
 #define ALL_COLUMNS \
 	"generation, phase, source, token, servers, dimension, attributes, lower, upper, least, greatest, borders, " \
-	"points, rounds, sent, simplices, names_given, domain_given, srid"
+	"points, rounds, sent, simplices, names_given, domain_given, srid, versions"
 
 /* The first row of those chosen; false if there is none. SPI must be connected. */
 static bool
@@ -225,6 +245,13 @@ generation_read_after(Oid relid, int64 number, Generation *generation)
 									  number), generation);
 }
 
+/* Reads the one with this number. */
+bool
+generation_read_numbered(Oid relid, int64 number, Generation *generation)
+{
+	return read_first(relid, psprintf("WHERE generation OPERATOR(pg_catalog.=) '" INT64_FORMAT "'", number), generation);
+}
+
 /* The generation that readers see, or an error. */
 void
 generation_require_published(Oid relid, Generation *generation)
@@ -234,20 +261,6 @@ generation_require_published(Oid relid, Generation *generation)
 				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
 				 errmsg("mesh \"%s\" has not been built", get_rel_name(relid)),
 				 errhint("CALL abacus_shard_build for it.")));
-}
-
-/*
- * The generation that readers see, and connections to its shards, on which all queries of the transaction
- * see them as they belong together. They end with it.
- */
-void
-generation_read_links(Oid relid, Generation *generation, ShardLinks *links)
-{
-	generation_require_published(relid, generation);
-	links_prepare(links, generation->servers, generation->shards);
-	links_open(links, CONNECTION_OF_TRANSACTION);
-	for (int i = 0; i < links->count; i++)
-		connection_hold(links->connections[i]);
 }
 
 static char **
@@ -271,6 +284,8 @@ generation_copy(Generation *to, const Generation *from)
 	to->attributes = copy_texts(from->attributes, from->attribute_count);
 	to->borders = palloc(from->shards * sizeof(uint64));
 	memcpy(to->borders, from->borders, (from->shards - 1) * sizeof(uint64));
+	to->versions = palloc(from->shards * sizeof(int64));
+	memcpy(to->versions, from->versions, from->shards * sizeof(int64));
 }
 
 /* ---- To a row ------------------------------------------------------------------------------- */
@@ -297,12 +312,12 @@ point_array(const double *point, uint32 dimension)
 }
 
 static Datum
-border_array(const uint64 *borders, int count)
+number_array(const int64 *numbers, int count)
 {
 	Datum	   *values = palloc(Max(1, count) * sizeof(Datum));
 
 	for (int i = 0; i < count; i++)
-		values[i] = Int64GetDatum((int64) borders[i]);
+		values[i] = Int64GetDatum(numbers[i]);
 	return PointerGetDatum(construct_array(values, count, INT8OID, sizeof(int64), FLOAT8PASSBYVAL, TYPALIGN_DOUBLE));
 }
 
@@ -343,7 +358,11 @@ make_row(const Generation *generation, Datum *values, char *nulls)
 	if (generation->borders == NULL)
 		nulls[GENERATION_BORDERS] = 'n';
 	else
-		values[GENERATION_BORDERS] = border_array(generation->borders, generation->shards - 1);
+		values[GENERATION_BORDERS] = number_array((const int64 *) generation->borders, generation->shards - 1);
+	if (generation->versions == NULL)
+		nulls[GENERATION_VERSIONS] = 'n';
+	else
+		values[GENERATION_VERSIONS] = number_array(generation->versions, generation->shards);
 }
 
 static void
@@ -368,7 +387,7 @@ generation_insert(const Generation *generation)
 {
 	change_row(generation,
 			   psprintf("INSERT INTO %s (" ALL_COLUMNS ") VALUES ($1, $2, $3, $4, $5, $6, $7, $8, $9, $10, $11, "
-						"$12, $13, $14, $15, $16, $17, $18, $19)", lines_table_name(generation->relid)));
+						"$12, $13, $14, $15, $16, $17, $18, $19, $20)", lines_table_name(generation->relid)));
 }
 
 void
@@ -376,7 +395,7 @@ generation_update(const Generation *generation)
 {
 	change_row(generation,
 			   psprintf("UPDATE %s SET (" ALL_COLUMNS ") = ROW ($1, $2, $3, $4, $5, $6, $7, $8, $9, $10, $11, "
-						"$12, $13, $14, $15, $16, $17, $18, $19) WHERE generation OPERATOR(pg_catalog.=) $1",
+						"$12, $13, $14, $15, $16, $17, $18, $19, $20) WHERE generation OPERATOR(pg_catalog.=) $1",
 						lines_table_name(generation->relid)));
 }
 
@@ -395,6 +414,13 @@ char *
 generation_mesh(const Generation *generation, int shard)
 {
 	return psprintf("abacus_%s_" INT64_FORMAT "_%d", generation->token, generation->number, shard + 1);
+}
+
+/* What names of its prepared changes begin with, on its server. */
+char *
+generation_change_prefix(const Generation *generation, int shard)
+{
+	return generation_mesh(generation, shard);
 }
 
 /* The shard that owns a code. */

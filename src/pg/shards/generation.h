@@ -39,16 +39,19 @@ typedef struct Generation
 	int			rounds;			/* of the exchange */
 	int64		sent;			/* vertices that it sent */
 	int64		simplices;		/* of all shards, each counted by its owner */
+	int64	   *versions;		/* of each shard: changes of the published mesh */
 } Generation;
 
 extern bool generation_read(Oid relid, bool published, Generation *generation);
 extern bool generation_read_after(Oid relid, int64 number, Generation *generation);
 extern void generation_require_published(Oid relid, Generation *generation);
 extern void generation_copy(Generation *to, const Generation *from);
-extern void generation_read_links(Oid relid, Generation *generation, ShardLinks *links);
 extern void generation_insert(const Generation *generation);
 extern void generation_update(const Generation *generation);
 extern void generation_forget(const Generation *generation);
+extern bool generation_read_numbered(Oid relid, int64 number, Generation *generation);
+extern char *generation_change_prefix(const Generation *generation, int shard);
+extern void generation_reach(const Generation *generation, abacus_box *reach);
 extern char *generation_mesh(const Generation *generation, int shard);
 extern uint32 generation_owner(const Generation *generation, uint64 code);
 extern const char *phase_name(ShardPhase phase);

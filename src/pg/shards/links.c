@@ -30,19 +30,19 @@ links_prepare(ShardLinks *links, char **servers, int count)
 	links->connections = palloc0(count * sizeof(Connection *));
 }
 
-/* Connects to the servers to which the session has no connection yet. */
+/* Connects to the servers to which the session has no connection yet, for a mesh, of a transaction. */
 void
-links_open(ShardLinks *links, ConnectionKind kind)
+links_open(ShardLinks *links, ConnectionKind kind, Oid mesh)
 {
 	for (int i = 0; i < links->count; i++)
-		links->connections[i] = connection_get(links->servers[i], i, kind);
+		links->connections[i] = connection_get(links->servers[i], i, kind, mesh);
 }
 
 /* Opens connections and does the work with them. After an error they are closed. */
 void
 links_run(ShardLinks *links, void (*work) (ShardLinks *links, void *context), void *context)
 {
-	links_open(links, CONNECTION_OF_BUILD);
+	links_open(links, CONNECTION_OF_BUILD, InvalidOid);
 	for (int i = 0; i < links->count; i++)
 		connection_hold(links->connections[i]);
 	work(links, context);

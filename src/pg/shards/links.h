@@ -6,7 +6,7 @@
 
 #include "postgres.h"
 
-#include "pg/shards/connection.h"
+#include "pg/connect/connection.h"
 
 /* A connection, one for each shard; all functions take its number. */
 typedef struct ShardLinks
@@ -28,7 +28,7 @@ typedef struct LinkRows
 } LinkRows;
 
 extern void links_prepare(ShardLinks *links, char **servers, int count);
-extern void links_open(ShardLinks *links, ConnectionKind kind);
+extern void links_open(ShardLinks *links, ConnectionKind kind, Oid mesh);
 extern void links_run(ShardLinks *links, void (*work) (ShardLinks *links, void *context), void *context);
 extern void link_send(ShardLinks *links, int i, const char *query);
 extern uint64 link_each_row(ShardLinks *links, int i, TupleDesc columns, ConnectionRow take, void *context);

@@ -29,6 +29,7 @@ typedef struct Relay
 	RelayStatement statement;
 	PointBatch *batches;		/* for each receiver */
 	double	   *attributes;
+	int64	   *sent;			/* to each */
 } Relay;
 
 /* Sends a batch, unless it is empty, when the server has dealt with what was sent before. */
@@ -137,38 +138,97 @@ relay_row(Relay *relay, HeapTuple row, TupleDesc desc)
 	for (int axis = 0; axis < ABACUS_MAX_DIMENSION; axis++)
 		point[axis] = DatumGetFloat8(values[2 + axis]);
 	read_attributes(values[5], relay->attributes, relay->generation->attribute_count);
+	relay->sent[to]++;
 	point_batch_add(&relay->batches[to], DatumGetInt64(values[1]), point, relay->attributes);
 	if (point_batch_is_full(&relay->batches[to]))
 		relay_batch(relay->generation, relay->links, relay->from, to, &relay->batches[to], relay->statement);
 }
 
-/* Passes on what a server has to send; returns how many points that were. */
+static void
+begin_relay(Relay *relay, const Generation *generation, ShardLinks *links, int from, RelayStatement statement)
+{
+	*relay = (Relay) {generation, links, from, statement};
+	relay->attributes = palloc(Max(1, generation->attribute_count) * sizeof(double));
+	relay->batches = palloc(generation->shards * sizeof(PointBatch));
+	relay->sent = palloc0(generation->shards * sizeof(int64));
+	for (int i = 0; i < generation->shards; i++)
+		point_batch_init(&relay->batches[i], generation->form.dimension, generation->attribute_count);
+}
+
+/* Frees the rows; returns how many they were. */
+static uint64
+relay_rows(Relay *relay, LinkRows *rows)
+{
+	uint64		count = rows->count;
+
+	for (uint64 i = 0; i < count; i++)
+		relay_row(relay, rows->rows[i], rows->desc);
+	link_rows_free(rows);
+	return count;
+}
+
+static void
+end_relay(Relay *relay)
+{
+	for (int i = 0; i < relay->generation->shards; i++)
+		relay_batch(relay->generation, relay->links, relay->from, i, &relay->batches[i], relay->statement);
+}
+
+static LinkRows *
+fetch(ShardLinks *links, int from)
+{
+	return link_rows(links, from, link_columns(lengthof(export_columns), export_columns, NULL));
+}
+
+/* Passes on what a server has to send, in its temporary table; returns how many points that were. */
 int64
 relay_exported(const Generation *generation, ShardLinks *links, int from, RelayStatement statement)
 {
-	Relay		relay = {generation, links, from, statement};
-	TupleDesc	columns = link_columns(lengthof(export_columns), export_columns, NULL);
+	Relay		relay;
 	int64		sent = 0;
 	uint64		count;
 
-	relay.attributes = palloc(Max(1, generation->attribute_count) * sizeof(double));
-	relay.batches = palloc(generation->shards * sizeof(PointBatch));
-	for (int i = 0; i < generation->shards; i++)
-		point_batch_init(&relay.batches[i], generation->form.dimension, generation->attribute_count);
+	begin_relay(&relay, generation, links, from, statement);
 	link_finish(links, from);
 	do
 	{
-		LinkRows   *rows;
-
 		link_send(links, from, shard_sql_exported(sent, sent + ROWS_A_TIME));
-		rows = link_rows(links, from, columns);
-		count = rows->count;
-		for (uint64 i = 0; i < count; i++)
-			relay_row(&relay, rows->rows[i], columns);
-		link_rows_free(rows);
+		count = relay_rows(&relay, fetch(links, from));
 		sent += (int64) count;
 	} while (count == ROWS_A_TIME);
-	for (int i = 0; i < generation->shards; i++)
-		relay_batch(generation, links, from, i, &relay.batches[i], statement);
+	end_relay(&relay);
 	return sent;
+}
+
+/* Sends a query whose rows have these columns; what it reads is read when the first rows have come. */
+void
+relay_begin_query(ShardLinks *links, int from, const char *query)
+{
+	link_send(links, from, psprintf("DECLARE abacus_relay NO SCROLL CURSOR FOR %s; FETCH %d FROM abacus_relay", query,
+									ROWS_A_TIME));
+}
+
+LinkRows *
+relay_first_rows(ShardLinks *links, int from)
+{
+	return fetch(links, from);
+}
+
+/* Passes on these rows and those that follow. Returns to whom: numbers of points, by shard. */
+int64 *
+relay_query(const Generation *generation, ShardLinks *links, int from, LinkRows *first, RelayStatement statement)
+{
+	Relay		relay;
+	uint64		count;
+
+	begin_relay(&relay, generation, links, from, statement);
+	for (count = relay_rows(&relay, first); count == ROWS_A_TIME; count = relay_rows(&relay, fetch(links, from)))
+	{
+		link_finish(links, from);
+		link_send(links, from, psprintf("FETCH %d FROM abacus_relay", ROWS_A_TIME));
+	}
+	link_finish(links, from);
+	link_do(links, from, "CLOSE abacus_relay");
+	end_relay(&relay);
+	return relay.sent;
 }

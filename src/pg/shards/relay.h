@@ -15,5 +15,9 @@ extern void relay_batch(const Generation *generation, ShardLinks *links, int fro
 extern void relay_bytes(ShardLinks *links, int from, int to, StringInfo bytes);
 extern void relay_split(ShardLinks *links, int from);
 extern int64 relay_exported(const Generation *generation, ShardLinks *links, int from, RelayStatement statement);
+extern void relay_begin_query(ShardLinks *links, int from, const char *query);
+extern LinkRows *relay_first_rows(ShardLinks *links, int from);
+extern int64 *relay_query(const Generation *generation, ShardLinks *links, int from, LinkRows *first,
+						  RelayStatement statement);
 
 #endif

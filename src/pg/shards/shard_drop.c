@@ -16,10 +16,11 @@
 #include "utils/timestamp.h"
 #include "utils/wait_event.h"
 
+#include "pg/connect/connection_record.h"
 #include "pg/port/port.h"
-#include "pg/shards/connection_record.h"
 #include "pg/shards/shard_drop.h"
 #include "pg/shards/shard_sql.h"
+#include "pg/shards/shard_transaction.h"
 
 /* Numbers of the connections, above those of shards */
 #define FIRST_NUMBER 1000000
@@ -90,7 +91,7 @@ commit_all(void)
 		if (!commit_there(dropped))
 			ereport(WARNING,
 					(errcode(ERRCODE_CONNECTION_FAILURE),
-					 errmsg("tables %s and %s_guests remain on server \"%s\"", dropped->mesh, dropped->mesh,
+					 errmsg("tables %1$s, %1$s_guests, %1$s_arrivals and %1$s_version remain on server \"%2$s\"", dropped->mesh,
 							dropped->connection->name),
 					 errhint("Drop them there.")));
 	}
@@ -153,9 +154,11 @@ shard_drop(const Generation *generation)
 		RegisterSubXactCallback(at_subtransaction_event, NULL);
 		is_registered = true;
 	}
+	shard_transaction_leave(generation->relid);
 	for (int i = 0; i < generation->shards; i++)
 	{
-		Connection *connection = connection_get(generation->servers[i], FIRST_NUMBER + i, CONNECTION_OF_BUILD);
+		Connection *connection = connection_get(generation->servers[i], FIRST_NUMBER + i, CONNECTION_OF_BUILD,
+												InvalidOid);
 		bool		is_idle = PQtransactionStatus(connection->conn) == PQTRANS_IDLE;
 
 		connection_hold(connection);

@@ -64,13 +64,15 @@ border_literal(const Generation *generation)
 }
 
 /* The arguments of functions that look at a shard's mesh as a part of the whole. */
-static char *
-shard_arguments(const Generation *generation, int shard)
+char *
+shard_sql_arguments(const Generation *generation, int shard)
 {
 	const abacus_form *form = &generation->form;
+	abacus_box	reach;
 
+	generation_reach(generation, &reach);
 	return psprintf("'%s', %s, %d, %s, %s", generation_mesh(generation, shard), border_literal(generation), shard,
-					point_literal(form, generation->extent.lower), point_literal(form, generation->extent.upper));
+					point_literal(form, reach.lower), point_literal(form, reach.upper));
 }
 
 /*
@@ -106,7 +108,7 @@ shard_sql_drop(const Generation *generation, int shard)
 {
 	char	   *mesh = generation_mesh(generation, shard);
 
-	return psprintf("DROP TABLE IF EXISTS %s, %s_guests", mesh, mesh);
+	return psprintf("DROP TABLE IF EXISTS %1$s, %1$s_guests, %1$s_arrivals, %1$s_version", mesh);
 }
 
 /* Makes the mesh, without points. */
@@ -119,10 +121,13 @@ shard_sql_begin(const Generation *generation, int shard)
 	return psprintf("%s; SELECT abacus_shard_begin('%s', %u, %s, %s, %u)::text; "
 					"CREATE TABLE %s_guests (id bigint NOT NULL, x double precision, y double precision, "
 					"z double precision, attributes double precision[] NOT NULL, inserted boolean NOT NULL, "
-					"PRIMARY KEY (x, y, z))",
+					"PRIMARY KEY (x, y, z)); "
+					"CREATE UNLOGGED TABLE %s_arrivals (n bigserial, kind integer NOT NULL, id bigint NOT NULL, "
+					"x double precision, y double precision, z double precision, attributes double precision[]); "
+					"CREATE TABLE %s_version (version bigint NOT NULL); INSERT INTO %s_version VALUES (0)",
 					shard_sql_drop(generation, shard), mesh, form->dimension,
 					text_list(generation->attributes, generation->attribute_count), domain_literals(form), form->srid,
-					mesh);
+					mesh, mesh, mesh, mesh);
 }
 
 /* Inserts the points that wait, and the guests that have come. */
@@ -140,8 +145,8 @@ shard_sql_take(const Generation *generation, int shard)
 /* ---- Points are spread ---------------------------------------------------------------------- */
 
 /* An array of the attributes of a row. */
-static char *
-attribute_list(int attributes)
+char *
+shard_sql_attributes(int attributes)
 {
 	StringInfoData list;
 
@@ -208,7 +213,7 @@ shard_sql_arrive(int from, int shard, const char *bytes)
 char *
 shard_sql_stage(const Generation *generation, int shard)
 {
-	return psprintf("SELECT abacus_shard_stage(%s)::text", shard_arguments(generation, shard));
+	return psprintf("SELECT abacus_shard_stage(%s)::text", shard_sql_arguments(generation, shard));
 }
 
 /* ---- The exchange --------------------------------------------------------------------------- */
@@ -245,14 +250,14 @@ shard_sql_export(const Generation *generation, int shard)
 					"FROM found JOIN fresh USING (shard, x, y, z) ORDER BY shard, x, y, z, n) "
 					"INSERT INTO pg_temp.abacus_export "
 					"SELECT row_number() OVER (ORDER BY n), shard, id, x, y, z, attributes FROM first",
-					shard_arguments(generation, shard));
+					shard_sql_arguments(generation, shard));
 }
 
 /* Counts the simplices that the shard owns. */
 char *
 shard_sql_count(const Generation *generation, int shard)
 {
-	return psprintf("SELECT abacus_shard_count(%s)", shard_arguments(generation, shard));
+	return psprintf("SELECT abacus_shard_count(%s)", shard_sql_arguments(generation, shard));
 }
 
 /* Some of these rows. */
@@ -269,7 +274,37 @@ shard_sql_receive(const Generation *generation, int from, int shard, const Point
 {
 	return psprintf("INSERT INTO %s_guests SELECT id, x, y, %s, %s, false FROM %s ORDER BY n ON CONFLICT DO NOTHING",
 					generation_mesh(generation, shard), batch->dimension == 2 ? "0" : "z",
-					attribute_list(batch->attributes), point_batch_rows(batch));
+					shard_sql_attributes(batch->attributes), point_batch_rows(batch));
+}
+
+/* ---- Versions ------------------------------------------------------------------------------- */
+
+char *
+shard_sql_version(const Generation *generation, int shard)
+{
+	return psprintf("SELECT version FROM %s_version", generation_mesh(generation, shard));
+}
+
+/* What holds for prepared changes of the shard. */
+static char *
+is_prepared(const Generation *generation, int shard)
+{
+	return psprintf("database = pg_catalog.current_database() AND pg_catalog.starts_with(gid, '%s_')",
+					generation_change_prefix(generation, shard));
+}
+
+/* Whether changes can be prepared, and how many are. */
+char *
+shard_sql_readiness(const Generation *generation, int shard)
+{
+	return psprintf("SELECT pg_catalog.current_setting('max_prepared_transactions')::bigint, "
+					"(SELECT count(*) FROM pg_catalog.pg_prepared_xacts WHERE %s)", is_prepared(generation, shard));
+}
+
+char *
+shard_sql_prepared(const Generation *generation, int shard)
+{
+	return psprintf("SELECT gid FROM pg_catalog.pg_prepared_xacts WHERE %s", is_prepared(generation, shard));
 }
 
 /* ---- The check ------------------------------------------------------------------------------ */
@@ -292,7 +327,7 @@ shard_sql_list_arrived(const Generation *generation, int from, int shard, const 
 {
 	return psprintf("INSERT INTO pg_temp.abacus_arrival (source, id, x, y, z, attributes) "
 					"SELECT %d, id, x, y, %s, %s FROM %s ORDER BY n",
-					from, batch->dimension == 2 ? "0" : "z", attribute_list(batch->attributes),
+					from, batch->dimension == 2 ? "0" : "z", shard_sql_attributes(batch->attributes),
 					point_batch_rows(batch));
 }
 
@@ -332,7 +367,7 @@ char *
 shard_sql_list_exports(const Generation *generation, int shard)
 {
 	return psprintf("INSERT INTO pg_temp.abacus_export SELECT row_number() OVER (), shard, id, x, y, coalesce(z, 0), "
-					"attributes FROM abacus_shard_exports(%s)", shard_arguments(generation, shard));
+					"attributes FROM abacus_shard_exports(%s)", shard_sql_arguments(generation, shard));
 }
 
 /* How many of these the shard lacks. */

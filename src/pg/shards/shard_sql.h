@@ -16,6 +16,8 @@ extern char *shard_sql_split(const Generation *generation, int shard);
 extern char *shard_sql_split_rows(int shard);
 extern char *shard_sql_arrive(int from, int shard, const char *bytes);
 extern char *shard_sql_stage(const Generation *generation, int shard);
+extern char *shard_sql_attributes(int attributes);
+extern char *shard_sql_arguments(const Generation *generation, int shard);
 extern const char *shard_sql_begin_exchange(void);
 extern char *shard_sql_export(const Generation *generation, int shard);
 extern char *shard_sql_count(const Generation *generation, int shard);
@@ -24,6 +26,10 @@ extern char *shard_sql_receive(const Generation *generation, int from, int shard
 extern const char *shard_sql_end_exchange(void);
 extern char *shard_sql_stretch(const Generation *generation, int shard);
 extern char *shard_sql_interval(const Generation *generation, int shard, const char *code);
+
+extern char *shard_sql_version(const Generation *generation, int shard);
+extern char *shard_sql_readiness(const Generation *generation, int shard);
+extern char *shard_sql_prepared(const Generation *generation, int shard);
 
 extern const char *shard_sql_make_room(void);
 extern char *shard_sql_list_arrived(const Generation *generation, int from, int shard, const PointBatch *batch);

@@ -22,7 +22,9 @@ state_query(const char *mesh)
 					"(SELECT value FROM figures WHERE name = 'duplicates'), n, "
 					"pg_total_relation_size('%1$s') + pg_total_relation_size('%1$s_vertices') + "
 					"pg_total_relation_size('%1$s_guests'), "
-					"(SELECT min(phase) FROM abacus_progress WHERE mesh = '%1$s'::regclass) FROM guests",
+					"coalesce((SELECT min(phase) FROM abacus_progress WHERE mesh = '%1$s'::regclass), "
+					"(SELECT 'prepared: ' || min(gid) FROM pg_catalog.pg_prepared_xacts "
+					"WHERE pg_catalog.starts_with(gid, '%1$s_'))) FROM guests",
 					mesh);
 }
 

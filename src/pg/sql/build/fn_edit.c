@@ -13,9 +13,11 @@
 #include "pg/base/sql_function.h"
 #include "pg/host/guard.h"
 #include "pg/mesh/change.h"
+#include "pg/remote/shard_read.h"
+#include "pg/shards/change/shard_change.h"
 #include "pg/sql/rows/answers.h"
-#include "pg/sql/rows/result.h"
-#include "pg/sql/rows/simplex_row.h"
+#include "pg/sql/rows/changed_row.h"
+#include "pg/sql/rows/on_duplicate.h"
 #include "pg/track/by_hand.h"
 
 SQL_FUNCTION(abacus_sql_insert);
@@ -23,51 +25,16 @@ SQL_FUNCTION(abacus_sql_delete);
 SQL_FUNCTION(abacus_sql_insert_returning);
 SQL_FUNCTION(abacus_sql_delete_returning);
 
-/* Columns of the returned simplices: those of abacus_simplex between two others */
-enum
-{
-	CHANGED_CREATED,
-	CHANGED_SIMPLEX,
-	CHANGED_CORNERS = CHANGED_SIMPLEX + SIMPLEX_COLUMNS,
-	CHANGED_COLUMNS
-};
-
-/* What happens to a point at the place of another, from an argument. */
-static abacus_on_duplicate
-on_duplicate(text *given)
-{
-	static const char *const names[] = {
-		[ABACUS_KEEP] = "keep", [ABACUS_REPLACE] = "replace", [ABACUS_REFUSE] = "error"
-	};
-	char	   *name = text_to_cstring(given);
-
-	for (int i = 0; i < lengthof(names); i++)
-		if (strcmp(name, names[i]) == 0)
-			return (abacus_on_duplicate) i;
-	ereport(ERROR,
-			(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
-			 errmsg("on_duplicate must not be \"%s\"", name),
-			 errhint("Use 'keep', 'replace' or 'error'.")));
-	return ABACUS_KEEP;			/* not reached */
-}
-
 /* Adds the row of a simplex; called by the core. */
 static abacus_host_status
 put_simplex(void *context, int created, const abacus_simplex *simplex)
 {
 	Answers    *answers = context;
-	int			dimension = (int) answers->dimension;
-	double		corners[(ABACUS_MAX_DIMENSION + 1) * ABACUS_MAX_DIMENSION];
 	Datum		values[CHANGED_COLUMNS];
 	bool		isnull[CHANGED_COLUMNS] = {false};
 
-	for (int i = 0; i <= dimension; i++)
-		memcpy(corners + i * dimension, simplex->corner[i], dimension * sizeof(double));
-	values[CHANGED_CREATED] = BoolGetDatum(created != 0);
-	simplex_columns(simplex, answers->dimension, values + CHANGED_SIMPLEX,
-					isnull + CHANGED_SIMPLEX);
 	GUARD_BEGIN();
-	values[CHANGED_CORNERS] = float_matrix(corners, dimension + 1, dimension);
+	changed_columns(simplex, answers->dimension, created != 0, values, isnull);
 	answers_add(answers, values, isnull);
 	pfree(DatumGetPointer(values[CHANGED_CORNERS]));
 	GUARD_END(answers->host);
@@ -118,12 +85,14 @@ insert_query(Oid mesh, Source *source, abacus_on_duplicate how, Answers *answers
 Datum
 abacus_sql_insert(PG_FUNCTION_ARGS)
 {
-	abacus_on_duplicate how = on_duplicate(PG_GETARG_TEXT_PP(2));
+	abacus_on_duplicate how = on_duplicate_argument(PG_GETARG_TEXT_PP(2));
 	Source		source;
 	uint64		points;
 
 	source_prepare(&source, text_to_cstring(PG_GETARG_TEXT_PP(1)));
-	points = insert_query(PG_GETARG_OID(0), &source, how, NULL, "abacus_insert()");
+	points = is_over_shards(fcinfo)
+		? shard_insert(PG_GETARG_OID(0), &source, text_to_cstring(PG_GETARG_TEXT_PP(2)), NULL, "abacus_insert()")
+		: insert_query(PG_GETARG_OID(0), &source, how, NULL, "abacus_insert()");
 	source_finish(&source);
 	PG_RETURN_INT64((int64) points);
 }
@@ -135,13 +104,17 @@ abacus_sql_insert(PG_FUNCTION_ARGS)
 Datum
 abacus_sql_insert_returning(PG_FUNCTION_ARGS)
 {
-	abacus_on_duplicate how = on_duplicate(PG_GETARG_TEXT_PP(2));
+	abacus_on_duplicate how = on_duplicate_argument(PG_GETARG_TEXT_PP(2));
 	Answers		answers = {.set = (ReturnSetInfo *) fcinfo->resultinfo};
 	Source		source;
 
 	InitMaterializedSRF(fcinfo, 0);
 	source_prepare(&source, text_to_cstring(PG_GETARG_TEXT_PP(1)));
-	insert_query(PG_GETARG_OID(0), &source, how, &answers, "abacus_insert_returning()");
+	if (is_over_shards(fcinfo))
+		(void) shard_insert(PG_GETARG_OID(0), &source, text_to_cstring(PG_GETARG_TEXT_PP(2)), answers.set,
+							"abacus_insert_returning()");
+	else
+		insert_query(PG_GETARG_OID(0), &source, how, &answers, "abacus_insert_returning()");
 	source_finish(&source);
 	PG_RETURN_NULL();
 }
@@ -172,7 +145,8 @@ abacus_sql_delete(PG_FUNCTION_ARGS)
 	uint64		deleted;
 
 	source_prepare(&source, text_to_cstring(PG_GETARG_TEXT_PP(1)));
-	deleted = delete_query(PG_GETARG_OID(0), &source, NULL, "abacus_delete()");
+	deleted = is_over_shards(fcinfo) ? shard_delete(PG_GETARG_OID(0), &source, NULL, "abacus_delete()")
+		: delete_query(PG_GETARG_OID(0), &source, NULL, "abacus_delete()");
 	source_finish(&source);
 	PG_RETURN_INT64((int64) deleted);
 }
@@ -186,7 +160,10 @@ abacus_sql_delete_returning(PG_FUNCTION_ARGS)
 
 	InitMaterializedSRF(fcinfo, 0);
 	source_prepare(&source, text_to_cstring(PG_GETARG_TEXT_PP(1)));
-	delete_query(PG_GETARG_OID(0), &source, &answers, "abacus_delete_returning()");
+	if (is_over_shards(fcinfo))
+		(void) shard_delete(PG_GETARG_OID(0), &source, answers.set, "abacus_delete_returning()");
+	else
+		delete_query(PG_GETARG_OID(0), &source, &answers, "abacus_delete_returning()");
 	source_finish(&source);
 	PG_RETURN_NULL();
 }

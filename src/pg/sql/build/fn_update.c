@@ -11,6 +11,8 @@
 #include "pg/base/sql_function.h"
 #include "pg/mesh/change.h"
 #include "pg/mesh/shape.h"
+#include "pg/remote/shard_read.h"
+#include "pg/shards/change/shard_change.h"
 #include "pg/track/by_hand.h"
 
 SQL_FUNCTION(abacus_sql_update);
@@ -29,11 +31,7 @@ shape_of_rows(const Source *source, const abacus_header *header, uint32 *attribu
 	abacus_header_copy(shape, header);
 	shape->facts.columns.attributes = 0;
 	shape->facts.standing = ABACUS_DELAUNAY;	/* of rows, which are in no triangulation */
-	if (columns <= first)
-		ereport(ERROR,
-				(errcode(ERRCODE_DATATYPE_MISMATCH),
-				 errmsg("source query has no column for an attribute"),
-				 errhint("After the id and the coordinates, add columns that are named after attributes.")));
+	source_require_attributes(source, header->facts.form.dimension);
 	for (int i = first; i < columns; i++)
 	{
 		const char *name = source_column_name(source, i);
@@ -97,7 +95,8 @@ abacus_sql_update(PG_FUNCTION_ARGS)
 	uint64		points;
 
 	source_prepare(&source, text_to_cstring(PG_GETARG_TEXT_PP(1)));
-	points = update_query(PG_GETARG_OID(0), &source);
+	points = is_over_shards(fcinfo) ? shard_update(PG_GETARG_OID(0), &source, "abacus_update()")
+		: update_query(PG_GETARG_OID(0), &source);
 	source_finish(&source);
 	PG_RETURN_INT64((int64) points);
 }

@@ -210,6 +210,7 @@ begin_anew(Generation *generation, const char *source)
 	generation->points = generation->sent = 0;
 	generation->rounds = 0;
 	generation->borders = NULL;
+	memset(generation->versions, 0, generation->shards * sizeof(int64));
 }
 
 /* Drops the meshes of generations before this one, which nobody can begin to read any more. */

@@ -16,20 +16,11 @@
 #include "pg/sql/rows/answers.h"
 #include "pg/sql/rows/result.h"
 #include "pg/sql/rows/set.h"
+#include "pg/sql/shards/exports_row.h"
 
 SQL_FUNCTION(abacus_sql_shard_exports);
 SQL_FUNCTION(abacus_sql_shard_settled);
 SQL_FUNCTION(abacus_sql_shard_count);
-
-/* Columns of the vertices */
-enum
-{
-	EXPORT_SHARD,
-	EXPORT_ID,
-	EXPORT_X,
-	EXPORT_ATTRIBUTES = EXPORT_X + ABACUS_MAX_DIMENSION,
-	EXPORT_COLUMNS
-};
 
 /* Columns of the places */
 enum
@@ -55,9 +46,12 @@ words_argument(FunctionCallInfo fcinfo, int argument, const char *name, int *cou
 
 /* ---- abacus_shard_exports ------------------------------------------------------------------- */
 
-/* The arguments behind the mesh say between which borders, which shard, and around which points. */
-static void
-open_exports(FunctionCallInfo fcinfo, Reader *reader)
+/*
+ * The exports of a reader's mesh; they belong to its host. The arguments behind the mesh say between which
+ * borders, which shard, and around which points.
+ */
+abacus_exports *
+exports_open(FunctionCallInfo fcinfo, Reader *reader)
 {
 	Host	   *host = reader->host;
 	int			count;
@@ -81,6 +75,21 @@ open_exports(FunctionCallInfo fcinfo, Reader *reader)
 	host_run(host, abacus_exports_open, &host->table, &reader->header.facts, borders, (size_t) count,
 			 (uint32) shard, &extent, &exports);
 	host_own(host, exports, (void (*) (void *)) abacus_exports_close);
+	return exports;
+}
+
+/* The row of a vertex; the attributes are allocated. */
+void
+export_columns(uint32 shard, const abacus_vertex *vertex, const abacus_facts *facts, Datum *values, bool *isnull)
+{
+	values[EXPORT_SHARD] = Int32GetDatum((int32) shard);
+	values[EXPORT_ID] = Int64GetDatum(vertex->id);
+	for (uint32 i = 0; i < ABACUS_MAX_DIMENSION; i++)
+	{
+		isnull[EXPORT_X + i] = i >= facts->form.dimension;
+		values[EXPORT_X + i] = Float8GetDatum(vertex->point[i]);
+	}
+	values[EXPORT_ATTRIBUTES] = attribute_array(vertex->attributes, (int) facts->columns.attributes);
 }
 
 /*
@@ -102,7 +111,7 @@ abacus_sql_shard_exports(PG_FUNCTION_ARGS)
 	if (SRF_IS_FIRSTCALL())
 	{
 		set = SRF_FIRSTCALL_INIT();
-		open_exports(fcinfo, set_begin(fcinfo, set, result_row_type));
+		(void) exports_open(fcinfo, set_begin(fcinfo, set, result_row_type));
 	}
 	set = SRF_PERCALL_SETUP();
 	reader = set->user_fctx;
@@ -111,14 +120,7 @@ abacus_sql_shard_exports(PG_FUNCTION_ARGS)
 	host_release(reader->host);
 	if (status == ABACUS_END)
 		SRF_RETURN_DONE(set);
-	values[EXPORT_SHARD] = Int32GetDatum((int32) shard);
-	values[EXPORT_ID] = Int64GetDatum(vertex.id);
-	for (uint32 i = 0; i < ABACUS_MAX_DIMENSION; i++)
-	{
-		isnull[EXPORT_X + i] = i >= facts->form.dimension;
-		values[EXPORT_X + i] = Float8GetDatum(vertex.point[i]);
-	}
-	values[EXPORT_ATTRIBUTES] = attribute_array(vertex.attributes, facts->columns.attributes);
+	export_columns(shard, &vertex, facts, values, isnull);
 	SRF_RETURN_NEXT(set, HeapTupleGetDatum(heap_form_tuple(set->tuple_desc, values, isnull)));
 }
 
@@ -215,7 +217,7 @@ abacus_sql_shard_count(PG_FUNCTION_ARGS)
 	Reader	   *reader = reader_open(PG_GETARG_OID(0), CurrentMemoryContext);
 	uint64		count;
 
-	open_exports(fcinfo, reader);
+	(void) exports_open(fcinfo, reader);
 	host_run(reader->host, abacus_exports_count, reader->host->handle, &count);
 	host_release(reader->host);
 	host_destroy(reader->host);

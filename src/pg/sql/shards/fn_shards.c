@@ -1,5 +1,6 @@
 /*
- * fn_shards.c: abacus_shards, the shards of a mesh over several servers.
+ * fn_shards.c: abacus_shards, the shards of a mesh over several servers, and abacus_shard_resolve, which ends
+ * changes of theirs.
  */
 #include "postgres.h"
 
@@ -10,9 +11,11 @@
 
 #include "pg/base/sql_function.h"
 #include "pg/mesh/mesh.h"
+#include "pg/shards/shard_resolve.h"
 #include "pg/shards/shard_state.h"
 
 SQL_FUNCTION(abacus_sql_shards);
+SQL_FUNCTION(abacus_sql_shard_resolve);
 
 /* Columns of the result */
 enum
@@ -96,4 +99,20 @@ abacus_sql_shards(PG_FUNCTION_ARGS)
 	}
 	SPI_finish();
 	PG_RETURN_NULL();
+}
+
+/* abacus_shard_resolve(mesh regclass) -> bigint */
+Datum
+abacus_sql_shard_resolve(PG_FUNCTION_ARGS)
+{
+	Oid			relid = PG_GETARG_OID(0);
+	Generation	generation;
+	int64		resolved;
+
+	mesh_require_sharded(relid);
+	SPI_connect();
+	generation_require_published(relid, &generation);
+	resolved = shard_resolve(&generation);
+	SPI_finish();
+	PG_RETURN_INT64(resolved);
 }

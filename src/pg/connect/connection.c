@@ -23,9 +23,12 @@
 #include "utils/syscache.h"
 #include "utils/wait_event.h"
 
+#include "pg/connect/connection_options.h"
+#include "pg/connect/connection_record.h"
 #include "pg/port/port.h"
-#include "pg/shards/connection_options.h"
-#include "pg/shards/connection_record.h"
+
+/* For the end of a transaction that was sent before, in milliseconds. */
+#define END_PATIENCE 10000
 
 static slist_head connections = SLIST_STATIC_INIT(connections);
 static MemoryContext memory;
@@ -40,22 +43,28 @@ disconnect(Connection *connection)
 	PQfinish(connection->conn);
 	ReleaseExternalFD();
 	connection->conn = NULL;
-	connection->is_busy = false;
+	connection->is_busy = connection->is_ending = connection->is_open = connection->knows_version = false;
 	connection->level = 0;
 }
 
-/* Ends what runs there, and the connection. Raises no error. */
-static void
-abandon(Connection *connection)
+/* Cancels what runs there. Raises no error. */
+void
+connection_cancel(Connection *connection)
 {
 	PGcancel   *cancel = connection->is_busy ? PQgetCancel(connection->conn) : NULL;
 	char		problem[256];
 
-	if (cancel != NULL)
-	{
-		(void) PQcancel(cancel, problem, sizeof(problem));
-		PQfreeCancel(cancel);
-	}
+	if (cancel == NULL)
+		return;
+	(void) PQcancel(cancel, problem, sizeof(problem));
+	PQfreeCancel(cancel);
+}
+
+/* Ends what runs there, and the connection. Raises no error. */
+void
+connection_abandon(Connection *connection)
+{
+	connection_cancel(connection);
 	disconnect(connection);
 }
 
@@ -69,7 +78,7 @@ abandon_from(int level)
 		Connection *connection = slist_container(Connection, node, iter.cur);
 
 		if (connection->level >= level && connection->conn != NULL)
-			abandon(connection);
+			connection_abandon(connection);
 	}
 }
 
@@ -249,14 +258,14 @@ open_connection(Connection *connection, ForeignServer *server)
 	}
 	PG_CATCH();
 	{
-		abandon(connection);
+		connection_abandon(connection);
 		PG_RE_THROW();
 	}
 	PG_END_TRY();
 }
 
 static Connection *
-find(Oid server, int number, ConnectionKind kind)
+find(Oid server, int number, ConnectionKind kind, Oid mesh)
 {
 	slist_iter	iter;
 
@@ -265,14 +274,14 @@ find(Oid server, int number, ConnectionKind kind)
 		Connection *connection = slist_container(Connection, node, iter.cur);
 
 		if (connection->server == server && connection->user == GetUserId() && connection->number == number &&
-			connection->kind == kind)
+			connection->kind == kind && connection->mesh == mesh)
 			return connection;
 	}
 	return NULL;
 }
 
 static Connection *
-new_connection(ForeignServer *server, int number, ConnectionKind kind)
+new_connection(ForeignServer *server, int number, ConnectionKind kind, Oid mesh)
 {
 	Connection *connection;
 	MemoryContext old;
@@ -288,6 +297,7 @@ new_connection(ForeignServer *server, int number, ConnectionKind kind)
 	connection->user = GetUserId();
 	connection->number = number;
 	connection->kind = kind;
+	connection->mesh = mesh;
 	connection->name = pstrdup(server->servername);
 	initStringInfo(&connection->warnings);
 	enlargeStringInfo(&connection->warnings, 8192);
@@ -296,18 +306,30 @@ new_connection(ForeignServer *server, int number, ConnectionKind kind)
 	return connection;
 }
 
+/* The next of all connections, in no order; NULL: the first, or none. */
+Connection *
+connection_next(Connection *before)
+{
+	slist_node *node = before != NULL ? before->node.next : connections.head.next;
+
+	return node == NULL ? NULL : slist_container(Connection, node, node);
+}
+
 /* The session's connection of this kind and number to a server; connects if there is none. */
 Connection *
-connection_get(const char *name, int number, ConnectionKind kind)
+connection_get(const char *name, int number, ConnectionKind kind, Oid mesh)
 {
 	ForeignServer *server = GetForeignServerByName(name, false);
-	Connection *connection = find(server->serverid, number, kind);
+	Connection *connection = find(server->serverid, number, kind, mesh);
 
 	if (object_aclcheck(ForeignServerRelationId, server->serverid, GetUserId(), ACL_USAGE) != ACLCHECK_OK)
 		aclcheck_error(ACLCHECK_NO_PRIV, OBJECT_FOREIGN_SERVER, server->servername);
 	if (connection == NULL)
-		connection = new_connection(server, number, kind);
-	if (connection->conn != NULL && connection->level == 0 &&
+		connection = new_connection(server, number, kind, mesh);
+	if (connection->is_ending && !connection_try(connection, NULL, END_PATIENCE, NULL))
+		connection_abandon(connection);
+	connection->is_ending = false;
+	if (connection->conn != NULL && connection->level == 0 && !connection->is_open &&
 		(connection->is_stale || PQstatus(connection->conn) != CONNECTION_OK))
 		disconnect(connection);
 	if (connection->conn == NULL)

@@ -13,10 +13,11 @@
 #include "storage/latch.h"
 #include "utils/builtins.h"
 #include "utils/memutils.h"
+#include "utils/timestamp.h"
 #include "utils/wait_event.h"
 
+#include "pg/connect/connection_record.h"
 #include "pg/port/port.h"
-#include "pg/shards/connection_record.h"
 
 const char *
 connection_server(const Connection *connection)
@@ -98,6 +99,32 @@ hint_of_missing(int code, const char *message)
 		"never restored: build the mesh again with abacus_shard_build().";
 }
 
+/* Errors of the server name this mesh there as it is named here. */
+void
+connection_name_mesh(Connection *connection, const char *there, const char *here)
+{
+	strlcpy(connection->there, there, NAMEDATALEN);
+	strlcpy(connection->here, here, NAMEDATALEN);
+}
+
+static const char *
+named_here(const Connection *connection, const char *text)
+{
+	size_t		length = strlen(connection->there);
+	StringInfoData named;
+
+	initStringInfo(&named);
+	while (*text != '\0')
+		if (length > 0 && strncmp(text, connection->there, length) == 0 && text[length] != '_')
+		{
+			appendStringInfoString(&named, connection->here);
+			text += length;
+		}
+		else
+			appendStringInfoChar(&named, *text++);
+	return named.data;
+}
+
 /* Raises the error of a result, which is freed. */
 static void
 report_error(Connection *connection, PGresult *result)
@@ -116,7 +143,9 @@ report_error(Connection *connection, PGresult *result)
 	}
 	code = MAKE_SQLSTATE(state[0], state[1], state[2], state[3], state[4]);
 	for (int i = 0; i < lengthof(texts); i++)
-		texts[i] = texts[i] == NULL ? NULL : pstrdup(texts[i]);
+		if (texts[i] != NULL)	/* some are about the table there */
+			texts[i] = code == ERRCODE_INSUFFICIENT_PRIVILEGE || code == ERRCODE_UNDEFINED_TABLE ? pstrdup(texts[i])
+				: named_here(connection, texts[i]);
 	PQclear(result);
 	if (texts[2] == NULL)
 		texts[2] = hint_of_missing(code, texts[0]);
@@ -285,4 +314,102 @@ connection_finish(Connection *connection)
 			default:
 				fail(connection, result);
 		}
+}
+
+/* ---- At the end of transactions ---------------------------------------------------------------- */
+
+/* Sends a command and waits for nothing; the next use of the connection does. Raises no error. */
+void
+connection_fire(Connection *connection, const char *command)
+{
+	if (connection->is_busy || PQsendQuery(connection->conn, command) != 1 || PQflush(connection->conn) < 0)
+		connection_abandon(connection);
+	else
+		connection->is_busy = connection->is_ending = true;
+}
+
+/* Waits without raising errors until a result can be taken; false at the end of patience. */
+static bool
+wait_patiently(Connection *connection, TimestampTz end)
+{
+	while (PQisBusy(connection->conn) || PQflush(connection->conn) > 0)
+	{
+		long		left = TimestampDifferenceMilliseconds(GetCurrentTimestamp(), end);
+		int			happened;
+
+		if (left <= 0 || ProcDiePending || QueryCancelPending)
+			return false;
+		happened = WaitLatchOrSocket(MyLatch, WL_LATCH_SET | WL_SOCKET_READABLE | WL_TIMEOUT | WL_EXIT_ON_PM_DEATH,
+									 PQsocket(connection->conn), left, PG_WAIT_EXTENSION);
+		if (happened & WL_LATCH_SET)
+			ResetLatch(MyLatch);
+		if (PQconsumeInput(connection->conn) != 1)
+			return false;
+	}
+	return true;
+}
+
+static bool
+take_results(Connection *connection, TimestampTz end, char *state)
+{
+	bool		succeeds = true;
+
+	while (wait_patiently(connection, end))
+	{
+		PGresult   *result = PQgetResult(connection->conn);
+
+		if (result == NULL)
+		{
+			connection->is_busy = false;
+			return succeeds;
+		}
+		if (PQresultStatus(result) == PGRES_FATAL_ERROR || PQresultStatus(result) == PGRES_BAD_RESPONSE)
+		{
+			const char *found = PQresultErrorField(result, PG_DIAG_SQLSTATE);
+
+			succeeds = false;
+			if (state != NULL)
+				strlcpy(state, found == NULL ? "" : found, 6);
+		}
+		PQclear(result);
+		if (PQstatus(connection->conn) != CONNECTION_OK)
+			return false;
+	}
+	return false;
+}
+
+/*
+ * Waits for what runs, and then, if there is a command, runs it; at most so long, and until a cancel
+ * request. Returns whether the last of both succeeded; `state`, of six bytes, gets the SQLSTATE of its
+ * error, or is empty. If the connection is busy then, it is of no more use. Raises no error.
+ */
+bool
+connection_try(Connection *connection, const char *command, int milliseconds, char *state)
+{
+	volatile bool succeeds = false;
+	MemoryContext memory = CurrentMemoryContext;
+
+	if (state != NULL)
+		state[0] = '\0';
+	if (connection->conn == NULL)
+		return false;
+	PG_TRY();
+	{
+		TimestampTz end = TimestampTzPlusMilliseconds(GetCurrentTimestamp(), milliseconds);
+
+		succeeds = !connection->is_busy || take_results(connection, end, state);
+		if (command != NULL && !connection->is_busy)
+		{
+			connection->is_busy = PQsendQuery(connection->conn, command) == 1;
+			succeeds = connection->is_busy && take_results(connection, end, state);
+		}
+	}
+	PG_CATCH();
+	{
+		MemoryContextSwitchTo(memory);
+		FlushErrorState();
+		succeeds = false;
+	}
+	PG_END_TRY();
+	return succeeds;
 }

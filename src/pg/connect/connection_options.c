@@ -19,7 +19,7 @@
 #include "nodes/pg_list.h"
 #include "utils/builtins.h"
 
-#include "pg/shards/connection_options.h"
+#include "pg/connect/connection_options.h"
 
 /* Two of our own, and the end. */
 #define OWN_OPTIONS 3

@@ -21,7 +21,8 @@ typedef enum ConnectionKind
 /* Takes a row, which is gone afterwards. */
 typedef void (*ConnectionRow) (void *context, HeapTuple row, TupleDesc desc);
 
-extern Connection *connection_get(const char *server, int number, ConnectionKind kind);
+extern Connection *connection_get(const char *server, int number, ConnectionKind kind, Oid mesh);
+extern void connection_name_mesh(Connection *connection, const char *there, const char *here);
 extern void connection_hold(Connection *connection);
 extern void connection_let_go(Connection *connection);
 extern const char *connection_server(const Connection *connection);
