@@ -1,6 +1,6 @@
 # The build of a mesh over several servers: builds that meet, errors and notices, what each server keeps, what is
 # shown meanwhile; and whatever is killed, cut or full in each phase, the same call ends right.
-# ABACUS_KILLS   how often a server is killed or cut off (default 9: each way in each phase)
+# ABACUS_KILLS   how often a server is killed or cut off (default 50; 9 are each way in each phase)
 # ABACUS_SMALL_DISK   an empty folder on a file system of about 14 MB (scripts/test.sh mounts one)
 use strict;
 use warnings;
@@ -14,7 +14,7 @@ use PostgreSQL::Test::Utils;
 use Test::More;
 use Time::HiRes qw(time usleep);
 
-my $kills = $ENV{ABACUS_KILLS} || 9;
+my $kills = $ENV{ABACUS_KILLS} || 50;
 my $node = shards_node('coordinator');
 my $other = shards_node('other');
 $node->safe_psql('postgres', 'CREATE EXTENSION abacus; CREATE EXTENSION dblink');
