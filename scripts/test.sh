@@ -37,7 +37,7 @@ short_sets="wheel octree duplicates"
 # Each suite and its command, in the order in which they begin, each as soon as its needs have passed.
 suites=(format layout build-extension build tap build-benchmarks build-sanitized build-threads
     postgresql-17 postgresql-18 postgresql-19 viewer unit-sanitized unit-threads unit acceptance unit-apart oracles pgtap
-    regress isolation docs model model-lines model-track fuzz reports acceptance-goose oracles-large viewer-large tidy bench evaluation demo-shards)
+    regress isolation docs model model-lines model-track fuzz reports acceptance-goose acceptance-shards oracles-large viewer-large tidy bench evaluation demo-shards)
 declare -A command=(
     [format]=format_check
     [layout]=layout_check
@@ -63,6 +63,7 @@ declare -A command=(
     [tap]="with_server tap_suite ${ABACUS_SHORT:+$short_tap}"
     [acceptance]="scripts/acceptance.sh quick ${ABACUS_SHORT:+$short_sets}"
     [acceptance-goose]="scripts/acceptance.sh goose"
+    [acceptance-shards]="scripts/acceptance.sh shards"
     [model]="scripts/model_test.sh -t 30"
     [model-lines]="scripts/model_test.sh lines -t 20"
     [model-track]="scripts/model_test.sh track -t 20"
@@ -79,7 +80,7 @@ declare -A needs=([unit]=build [unit-apart]=build [build-sanitized]=build [build
     [unit-sanitized]=build-sanitized [unit-threads]=build-threads [fuzz]=build-sanitized
     [bench]=build-benchmarks [evaluation]=build-benchmarks)
 for name in build regress isolation pgtap docs viewer viewer-large tap; do needs[$name]=build-extension; done
-for name in acceptance acceptance-goose model model-lines model-track oracles oracles-large postgresql-17 postgresql-18 postgresql-19; do needs[$name]=build; done
+for name in acceptance acceptance-goose acceptance-shards model model-lines model-track oracles oracles-large postgresql-17 postgresql-18 postgresql-19; do needs[$name]=build; done
 if [[ -n ${ABACUS_SHORT:-} ]]; then needs[acceptance]=build-extension; fi # the oracle was brought
 
 # The line of a log that says how much was tested.

@@ -39,7 +39,7 @@ triangulate_shards(Generation *generation, ShardLinks *links)
 {
 	build_progress(SHOWN_TRIANGULATING, 0, links->count, 0);
 	for (int i = 0; i < links->count; i++)
-		link_send(links, i, shard_sql_take(generation, i));
+		link_send(links, i, psprintf("%s; %s", shard_sql_take(generation, i), shard_sql_taken(generation, i)));
 	for (int i = 0; i < links->count; i++)
 	{
 		link_finish(links, i);
@@ -47,20 +47,28 @@ triangulate_shards(Generation *generation, ShardLinks *links)
 	}
 }
 
-/* A round; returns how many vertices were sent. */
+/*
+ * A round; returns how many vertices were sent. A server whose mesh has not changed since it searched last
+ * has nothing new to send; `changed` says which ones have, and then, which do.
+ */
 static int64
-exchange_once(const Generation *generation, ShardLinks *links)
+exchange_once(const Generation *generation, ShardLinks *links, bool *changed)
 {
 	int64		sent = 0;
 
 	for (int i = 0; i < links->count; i++)
-		link_send(links, i, psprintf("BEGIN; %s", shard_sql_export(generation, i)));
+		link_send(links, i, changed[i] ? psprintf("BEGIN; %s", shard_sql_export(generation, i)) : "BEGIN");
 	finish_all(links);
 	for (int i = 0; i < links->count; i++)
-		sent += relay_exported(generation, links, i, shard_sql_receive);
+		if (changed[i])
+			sent += relay_exported(generation, links, i, shard_sql_receive);
 	finish_all(links);
 	for (int i = 0; i < links->count; i++)
-		link_send(links, i, psprintf("%s; COMMIT", shard_sql_take(generation, i)));
+		link_send(links, i, shard_sql_take(generation, i));
+	for (int i = 0; i < links->count; i++)
+		changed[i] = link_int64(links, i) > 0;
+	for (int i = 0; i < links->count; i++)
+		link_send(links, i, psprintf("%s; COMMIT", shard_sql_taken(generation, i)));
 	finish_all(links);
 	return sent;
 }
@@ -98,7 +106,9 @@ void
 exchange_vertices(Generation *generation, ShardLinks *links)
 {
 	int64		sent;
+	bool	   *changed = palloc(links->count * sizeof(bool));
 
+	memset(changed, true, links->count * sizeof(bool));
 	generation->rounds = 0;
 	generation->sent = 0;
 	send_to_all(links, shard_sql_begin_exchange());
@@ -107,7 +117,7 @@ exchange_vertices(Generation *generation, ShardLinks *links)
 	{
 		CHECK_FOR_INTERRUPTS();
 		build_progress(SHOWN_EXCHANGING, generation->sent, 0, generation->rounds + 1);
-		sent = exchange_once(generation, links);
+		sent = exchange_once(generation, links, changed);
 		generation->sent += sent;
 		generation->rounds++;
 	} while (sent > 0);

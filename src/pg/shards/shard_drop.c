@@ -9,15 +9,10 @@
 #include "postgres.h"
 
 #include "access/xact.h"
-#include "miscadmin.h"
 #include "nodes/pg_list.h"
-#include "storage/latch.h"
 #include "utils/memutils.h"
-#include "utils/timestamp.h"
-#include "utils/wait_event.h"
 
 #include "pg/connect/connection_record.h"
-#include "pg/port/port.h"
 #include "pg/shards/shard_drop.h"
 #include "pg/shards/shard_sql.h"
 #include "pg/shards/shard_transaction.h"
@@ -38,34 +33,6 @@ typedef struct Dropped
 
 static List *all_dropped = NIL; /* in the memory of the local transaction */
 
-/* Waits for what has been sent, for some time; returns whether all of it succeeded. Raises no error. */
-static bool
-succeeds_in_time(PGconn *conn, TimestampTz end)
-{
-	bool		succeeds = true;
-	PGresult   *result;
-
-	do
-	{
-		while (PQisBusy(conn) || PQflush(conn) > 0)
-		{
-			long		left = TimestampDifferenceMilliseconds(GetCurrentTimestamp(), end);
-
-			if (left <= 0 || ProcDiePending || QueryCancelPending ||
-				WaitLatchOrSocket(MyLatch, WL_LATCH_SET | WL_SOCKET_READABLE | WL_TIMEOUT | WL_EXIT_ON_PM_DEATH, PQsocket(conn),
-								  left, PG_WAIT_EXTENSION) == WL_TIMEOUT)
-				return false;
-			ResetLatch(MyLatch);
-			if (PQconsumeInput(conn) != 1)
-				return false;
-		}
-		result = PQgetResult(conn);
-		succeeds &= result == NULL || strcmp(PQcmdStatus(result), "COMMIT") == 0;
-		PQclear(result);
-	} while (result != NULL);
-	return succeeds;
-}
-
 /* Ends the transaction that has dropped a mesh; others were perhaps dropped in the same one. */
 static bool
 commit_there(const Dropped *dropped)
@@ -75,8 +42,7 @@ commit_there(const Dropped *dropped)
 	if (connection->conn == NULL || connection->conn != dropped->conn)
 		return false;
 	return PQtransactionStatus(connection->conn) == PQTRANS_IDLE ||
-		(PQsendQuery(connection->conn, "COMMIT") == 1 &&
-		 succeeds_in_time(connection->conn, TimestampTzPlusMilliseconds(GetCurrentTimestamp(), PATIENCE)));
+		(PQtransactionStatus(connection->conn) == PQTRANS_INTRANS && connection_try(connection, "COMMIT", PATIENCE, NULL));
 }
 
 static void

@@ -130,16 +130,21 @@ shard_sql_begin(const Generation *generation, int shard)
 					mesh, mesh, mesh, mesh);
 }
 
-/* Inserts the points that wait, and the guests that have come. */
+/* Inserts the points that wait, and the guests that have come; returns how many guests these are. */
 char *
 shard_sql_take(const Generation *generation, int shard)
 {
 	char	   *mesh = generation_mesh(generation, shard);
 
-	return psprintf("SELECT abacus_shard_take('%s', 'SELECT id, %s FROM %s_guests WHERE NOT inserted')::text; "
-					"UPDATE %s_guests SET inserted = true WHERE NOT inserted",
-					mesh, point_columns(generation->form.dimension, generation->attribute_count, "attributes[%d]"),
-					mesh, mesh);
+	return psprintf("SELECT abacus_shard_take('%s', 'SELECT id, %s FROM %s_guests WHERE NOT inserted')",
+					mesh, point_columns(generation->form.dimension, generation->attribute_count, "attributes[%d]"), mesh);
+}
+
+/* The guests have been inserted. */
+char *
+shard_sql_taken(const Generation *generation, int shard)
+{
+	return psprintf("UPDATE %s_guests SET inserted = true WHERE NOT inserted", generation_mesh(generation, shard));
 }
 
 /* ---- Points are spread ---------------------------------------------------------------------- */

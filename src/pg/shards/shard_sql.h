@@ -10,6 +10,7 @@
 extern char *shard_sql_drop(const Generation *generation, int shard);
 extern char *shard_sql_begin(const Generation *generation, int shard);
 extern char *shard_sql_take(const Generation *generation, int shard);
+extern char *shard_sql_taken(const Generation *generation, int shard);
 extern char *shard_sql_begin_spread(const Generation *generation, int shard);
 extern char *shard_sql_survey(const Generation *generation, int shard, const char *query);
 extern char *shard_sql_split(const Generation *generation, int shard);
