@@ -19,7 +19,8 @@ tar -C "$ABACUS_ROOT" --exclude=./build --exclude=./.git --exclude='*.o' -cf - .
 cd "$source"
 
 heading "Packages for the build"
-packages_prepare
+packages_tools
+packages_prepare -b
 
 heading "Build"
 packages_build -b

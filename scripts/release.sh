@@ -126,10 +126,11 @@ sources() {
 packages() {
     local folder=$ABACUS_BUILD/release/in which=$1 time package
     export CCACHE_DISABLE=1 # the second time the compiler runs again
+    packages_tools
     for time in once again; do
         rm -rf "$folder/work" "$folder/$time"
         mkdir -p "$folder/work" "$folder/$time"
-        (cd "$folder/work" && dpkg-source -x ../*.dsc source && cd source && packages_prepare && packages_build "$which")
+        (cd "$folder/work" && dpkg-source -x ../*.dsc source && cd source && packages_prepare "$which" && packages_build "$which")
         cp "$folder"/work/*.deb "$folder/$time"
     done
     diff -r "$folder/once" "$folder/again" || fail "Built twice, the packages differ"
