@@ -11,6 +11,7 @@
 #include "miscadmin.h"
 #include "utils/datum.h"
 #include "utils/tuplesort.h"
+#include "utils/tuplestore.h"
 #include "utils/typcache.h"
 
 #include "pg/shards/change/shard_net.h"
