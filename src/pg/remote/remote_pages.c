@@ -9,6 +9,7 @@
 #include "postgres.h"
 
 #include "access/htup_details.h"
+#include "access/xact.h"
 #include "catalog/pg_type.h"
 #include "common/hashfn.h"
 #include "executor/spi.h"
@@ -21,6 +22,7 @@
 #include "pg/remote/remote_pages.h"
 #include "pg/shards/generation_links.h"
 #include "pg/shards/shard_sql.h"
+#include "pg/shards/shard_transaction.h"
 
 #define CODE_LIMIT UINT64CONST(0x7FFFFFFFFFFFFFFF)
 #define KINDS 2
@@ -245,17 +247,46 @@ static const HostPageFunctions no_points = {
 
 /* ---- The header ----------------------------------------------------------------------------- */
 
+/* (Sub)transactions of the session that have ended, but for those that were released. */
+static uint64 transactions_ended = 0;
+
+static void
+at_transaction_event(XactEvent event, void *arg)
+{
+	if (event == XACT_EVENT_COMMIT || event == XACT_EVENT_ABORT || event == XACT_EVENT_PREPARE)
+		transactions_ended++;
+}
+
+static void
+at_subtransaction_event(SubXactEvent event, SubTransactionId id, SubTransactionId parent, void *arg)
+{
+	if (event == SUBXACT_EVENT_ABORT_SUB)
+		transactions_ended++;
+}
+
+static bool
+has_changed(const ShardLinks *links)
+{
+	for (int i = 0; i < links->count; i++)
+		if (shard_transaction_has_changed(links->connections[i]))
+			return true;
+	return false;
+}
+
 /*
  * A number that changes with the state of the mesh, and with the user: what one may read on the servers, another
- * may not.
+ * may not. What a transaction has changed is a state of its own until it ends: if it is undone, its versions will
+ * be those of other changes.
  */
 static uint64
-stamp_of(const Generation *generation)
+stamp_of(const Generation *generation, const ShardLinks *links)
 {
 	uint64		stamp = hash_bytes_extended((const unsigned char *) generation->token, (int) strlen(generation->token),
 											(uint64) generation->number);
 
 	stamp = hash_uint32_extended(GetUserId(), stamp);
+	if (has_changed(links))
+		stamp = hash_bytes_extended((const unsigned char *) &transactions_ended, sizeof(transactions_ended), stamp);
 	return hash_bytes_extended((const unsigned char *) generation->versions,
 							   generation->shards * (int) sizeof(generation->versions[0]), stamp);
 }
@@ -354,7 +385,7 @@ remote_read_header(RemotePages *remote, abacus_header *header)
 	remote->links.connections = palloc(links.count * sizeof(Connection *));
 	memcpy(remote->links.connections, links.connections, links.count * sizeof(Connection *));
 	remote->columns = link_columns(PAGE_COLUMNS, (Oid[]) {INT8OID, INT8OID, BYTEAOID}, NULL);
-	stamp = stamp_of(&remote->generation);
+	stamp = stamp_of(&remote->generation, &remote->links);
 	if (former == NULL || stamp != remote->header->stamp)
 	{
 		for (int i = 0; i < KINDS; i++)
@@ -395,4 +426,6 @@ remote_pages_init(void)
 	static const RemoteMeshes functions = {remote_open, remote_read_header};
 
 	mesh_pages_set_remote(&functions);
+	RegisterXactCallback(at_transaction_event, NULL);
+	RegisterSubXactCallback(at_subtransaction_event, NULL);
 }
