@@ -11,7 +11,9 @@ use PostgreSQL::Test::Utils;
 use Test::More;
 use Time::HiRes qw(usleep);
 
-my $rounds = $ENV{ABACUS_KILLS} || 4;
+# A few of each in the usual size, more in everything.
+my $kills = $ENV{ABACUS_KILLS} || 12;
+my ($rounds, $kills_each) = $kills > 5 ? (6, $kills) : (2, 3);
 my $seed = $ENV{ABACUS_SEED} || time;
 srand $seed;
 note "seed $seed";
@@ -119,7 +121,7 @@ for my $dimension (2, 3)
 		make('{' . join(',', map { "s$_" } 1 .. $count) . '}', $dimension, random_points(60, $dimension, 1) =~ s/'/''/gr);
 		for my $round (1 .. $rounds)
 		{
-			my $kind = $round % 4;
+			my $kind = int(rand(4));
 			my $rows = 1 + int(rand(60));
 			my $how = (qw(keep replace keep))[rand 3];
 			change("SELECT abacus_insert(MESH, '" . random_points($rows, $dimension, $round % 2) . "', '$how')", "$what: insert, $how") if $kind != 3;
@@ -232,7 +234,7 @@ is_same('two sessions');
 
 # Servers and sessions are killed while points come and go. What was committed is there; the rest is not.
 my $committed = 0;
-for my $kill (1 .. $rounds)
+for my $kill (1 .. $kills_each)
 {
 	my $first = 20_000 + 1000 * $kill;
 	my ($out, $err) = ('', '');

@@ -75,15 +75,17 @@ end_change(ShardChange *change)
 	for (int i = 0; i < links->count; i++)
 	{
 		link_finish(links, i);
+		if (change->parts[i].is_touched)
+			link_do(links, i, shard_sql_clear(generation, i));
 		if (!change->parts[i].is_changed)
 		{
+			/* what has come has gone: nothing need be prepared */
 			if (!change->was_changed[i])
 				shard_transaction_unchange(links->connections[i]);
 			continue;
 		}
-		step_will_change(change, i);
 		generation->versions[i]++;
-		link_send(links, i, psprintf("%s; %s", shard_sql_clear(generation, i), shard_sql_set_version(generation, i)));
+		link_send(links, i, shard_sql_set_version(generation, i));
 		shard_transaction_set_version(links->connections[i], generation->number, generation->versions[i]);
 	}
 	for (int i = 0; i < links->count; i++)
@@ -111,13 +113,14 @@ insert_points(ShardChange *change, Source *source, const char *on_duplicate, uin
 	int64		duplicates;
 
 	take_mesh_attributes(change);
+	change->tells = strcmp(on_duplicate, "replace") == 0;
 	generation_reach(generation, &before);
 	*count = step_read_points(change, source, true, owners);
 	(void) step_run(change, owners, ARRIVES_POINT, on_duplicate);
 	duplicates = change->duplicates;
 	generation->points += change->more;
-	if (strcmp(on_duplicate, "replace") == 0)
-		step_follow_owners(change, owners);
+	if (change->tells)
+		step_follow_owners(change);
 	note_wider_reach(change, &before);
 	step_exchange(change);
 	end_change(change);
@@ -156,10 +159,11 @@ delete_points(ShardChange *change, Source *source, uint64 *deleted)
 	/* attributes may follow the coordinates, as in abacus_insert() */
 	if (source_columns(source) != source_first_attribute(source, generation->form.dimension))
 		take_mesh_attributes(change);
+	change->tells = true;
 	(void) step_read_points(change, source, false, owners);
 	*deleted = (uint64) step_run(change, owners, ARRIVES_POINT, "delete");
 	generation->points += change->more;
-	step_follow_owners(change, owners);
+	step_follow_owners(change);
 	step_exchange(change);
 	end_change(change);
 }
@@ -217,6 +221,7 @@ update_points(ShardChange *change, Source *source, uint64 *count)
 	int			attributes;
 	char	  **names = take_named_attributes(change, source, &attributes);
 
+	change->tells = true;
 	*count = step_read_points(change, source, false, owners);
 	for (int i = 0; i < change->links.count; i++)
 		if (owners[i])
@@ -227,7 +232,7 @@ update_points(ShardChange *change, Source *source, uint64 *count)
 		}
 	for (int i = 0; i < change->links.count; i++)
 		link_finish(&change->links, i);
-	step_follow_owners(change, owners);
+	step_follow_owners(change);
 	step_exchange(change);
 	end_change(change);
 }

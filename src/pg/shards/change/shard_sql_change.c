@@ -43,6 +43,38 @@ shard_sql_arrive_guest(const Generation *generation, int from, int shard, const 
 					mesh, batch_rows(batch), ARRIVES_GUEST);
 }
 
+/* Of points of the query that another shard owns: those at whose places there are guests. */
+char *
+shard_sql_arrive_named(const Generation *generation, int from, int shard, const PointBatch *batch)
+{
+	char	   *mesh = generation_mesh(generation, shard);
+
+	return psprintf("INSERT INTO %1$s_arrivals (kind, id, x, y, z, attributes) SELECT DISTINCT %2$d, %3$d, g.x, g.y, g.z, "
+					"'{}'::double precision[] FROM %4$s JOIN %1$s_guests AS g ON g.x = b.x AND g.y = b.y AND g.z = b.z",
+					mesh, ARRIVES_NAMED, from, batch_rows(batch));
+}
+
+/* These, for their owners. */
+char *
+shard_sql_named(const Generation *generation, int shard)
+{
+	return psprintf("SELECT DISTINCT id::integer, 0::bigint, x, y, z, attributes FROM %s_arrivals WHERE kind = %d",
+					generation_mesh(generation, shard), ARRIVES_NAMED);
+}
+
+char *
+shard_sql_forget_named(const Generation *generation, int shard)
+{
+	return psprintf("DELETE FROM %s_arrivals WHERE kind = %d", generation_mesh(generation, shard), ARRIVES_NAMED);
+}
+
+char *
+shard_sql_arrive_asked(const Generation *generation, int from, int shard, const PointBatch *batch)
+{
+	return psprintf("INSERT INTO %s_arrivals (kind, id, x, y, z, attributes) SELECT %d, 0, x, y, z, '{}' FROM %s",
+					generation_mesh(generation, shard), ARRIVES_ASKED, batch_rows(batch));
+}
+
 /* Vertices that are no longer there; some may be guests. */
 char *
 shard_sql_arrive_gone(const Generation *generation, int from, int shard, const PointBatch *batch)
@@ -129,8 +161,8 @@ shard_sql_update(const Generation *generation, int shard, Arrival kind, char **n
 /* ---- What others must know ------------------------------------------------------------------ */
 
 /*
- * The vertices at the places of the query's points as they are now, for all other shards; or the places without
- * any. Before there are simplices, a vertex is the first of the points that wait at its place.
+ * The vertices at the places where others have guests as they are now, for all other shards; or the places
+ * without any. Before there are simplices, a vertex is the first of the points that wait at its place.
  */
 char *
 shard_sql_states(const Generation *generation, int shard, bool gone)
@@ -148,7 +180,7 @@ shard_sql_states(const Generation *generation, int shard, bool gone)
 					"LEFT JOIN waiting AS w ON w.x = a.x AND w.y = a.y AND w.z = a.z) "
 					"SELECT s, coalesce(id, 0), x, y, z, coalesce(attributes, '{}') FROM state "
 					"CROSS JOIN generate_series(0, %4$d) AS s WHERE s <> %5$d AND id IS %6$s",
-					mesh, ARRIVES_POINT, flat ? "" : "a.z, ", generation->shards - 1, shard, gone ? "NULL" : "NOT NULL");
+					mesh, ARRIVES_ASKED, flat ? "" : "a.z, ", generation->shards - 1, shard, gone ? "NULL" : "NOT NULL");
 }
 
 /* The vertices that others need since simplices are new; or all that they need. */

@@ -34,6 +34,7 @@ StaticAssertDecl(CHANGE_COLUMNS == lengthof(change_columns), "the columns of aba
 void
 step_will_change(ShardChange *change, int shard)
 {
+	change->parts[shard].is_touched = true;
 	shard_transaction_change(change->links.connections[shard], generation_change_prefix(change->generation, shard));
 }
 
@@ -88,6 +89,23 @@ step_run(ShardChange *change, const bool *which, Arrival kind, const char *how)
 
 /* ---- The query's points --------------------------------------------------------------------- */
 
+/* Sends points to their owner. Others get them too if their guests there may change. */
+static void
+send_points(ShardChange *change, int owner)
+{
+	PointBatch *batch = &change->parts[owner].batch;
+
+	for (int i = 0; i < change->links.count && change->tells && batch->points > 0; i++)
+	{
+		if (i == owner)
+			continue;
+		step_will_change(change, i);
+		link_finish(&change->links, i);
+		link_send(&change->links, i, shard_sql_arrive_named(change->generation, owner, i, batch));
+	}
+	relay_batch(change->generation, &change->links, owner, owner, batch, shard_sql_arrive_point);
+}
+
 /* The source's rows have the shape of the header, which may have other attributes than the mesh. */
 static void
 deal_out(ShardChange *change, const uint64 *record, bool widens)
@@ -112,7 +130,7 @@ deal_out(ShardChange *change, const uint64 *record, bool widens)
 	point_batch_add(&change->parts[owner].batch, (int64) record[0], point, point + dimension);
 	change->parts[owner].is_active = true;
 	if (point_batch_is_full(&change->parts[owner].batch))
-		relay_batch(generation, &change->links, owner, owner, &change->parts[owner].batch, shard_sql_arrive_point);
+		send_points(change, owner);
 }
 
 /* Returns how many there are; `owners` says which shards have got any. */
@@ -139,7 +157,7 @@ step_read_points(ShardChange *change, Source *source, bool widens, bool *owners)
 	source_close(source);
 	for (int i = 0; i < generation->shards; i++)
 	{
-		relay_batch(generation, &change->links, i, i, &change->parts[i].batch, shard_sql_arrive_point);
+		send_points(change, i);
 		owners[i] = change->parts[i].is_active;
 		change->parts[i].is_active = false;
 	}
@@ -148,7 +166,38 @@ step_read_points(ShardChange *change, Source *source, bool widens, bool *owners)
 
 /* ---- Guests --------------------------------------------------------------------------------- */
 
-/* Shards tell the others of their vertices at the places of points, or of those that have gone. */
+/* Shards with guests at places of the query's points ask the owners; `asked`: these. */
+static void
+ask_owners(ShardChange *change, bool *asked)
+{
+	ShardLinks *links = &change->links;
+	LinkRows  **first = palloc0(links->count * sizeof(LinkRows *));
+
+	for (int i = 0; i < links->count; i++)
+		if (change->parts[i].is_touched)
+		{
+			link_finish(links, i);
+			relay_begin_query(links, i, shard_sql_named(change->generation, i));
+		}
+	for (int i = 0; i < links->count; i++)
+		if (change->parts[i].is_touched)
+			first[i] = relay_first_rows(links, i);
+	for (int i = 0; i < links->count; i++)
+		if (first[i] != NULL)
+		{
+			bool		any = first[i]->count > 0;
+			int64	   *sent = relay_query(change->generation, links, i, first[i], shard_sql_arrive_asked);
+
+			for (int to = 0; to < links->count; to++)
+				asked[to] |= sent[to] > 0;
+			if (any)
+				link_send(links, i, shard_sql_forget_named(change->generation, i));
+		}
+	for (int i = 0; i < links->count; i++)
+		link_finish(links, i);
+}
+
+/* Shards tell the others of their vertices at these places, or of those that have gone. */
 static void
 tell_states(ShardChange *change, const bool *owners, bool gone, bool *told)
 {
@@ -180,16 +229,18 @@ tell_states(ShardChange *change, const bool *owners, bool gone, bool *told)
 
 /* Guests of other shards become as their owners have them. */
 void
-step_follow_owners(ShardChange *change, const bool *owners)
+step_follow_owners(ShardChange *change)
 {
 	static const Oid counts[] = {INT8OID, INT8OID, INT8OID};
 	Generation *generation = change->generation;
 	ShardLinks *links = &change->links;
+	bool	   *asked = palloc0(links->count * sizeof(bool));
 	bool	   *told = palloc0(links->count * sizeof(bool));
 	bool	   *which[3];
 
-	tell_states(change, owners, true, told);
-	tell_states(change, owners, false, told);
+	ask_owners(change, asked);
+	tell_states(change, asked, true, told);
+	tell_states(change, asked, false, told);
 	for (int kind = 0; kind < lengthof(which); kind++)
 		which[kind] = palloc0(links->count * sizeof(bool));
 	for (int i = 0; i < links->count; i++)

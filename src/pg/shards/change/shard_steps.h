@@ -13,7 +13,8 @@
 typedef struct Part
 {
 	PointBatch	batch;
-	bool		is_changed;		/* its mesh, in this call */
+	bool		is_touched;		/* something may have come, in this call */
+	bool		is_changed;		/* its mesh was, in this call */
 	bool		is_active;		/* simplices of it are new since it has sent vertices */
 	bool		is_all_new;		/* ... all of them */
 	bool		has_new_guests;
@@ -26,6 +27,7 @@ typedef struct ShardChange
 	Part	   *parts;
 	ShardNet   *net;			/* NULL: simplices are not returned */
 	abacus_header *header;		/* the shape of the points */
+	bool		tells;			/* guests of others may change */
 	bool	   *was_changed;	/* before this call, in the transaction */
 	/* of the step that runs */
 	Part	   *part;
@@ -37,7 +39,7 @@ typedef struct ShardChange
 extern void step_will_change(ShardChange *change, int shard);
 extern uint64 step_read_points(ShardChange *change, Source *source, bool widens, bool *owners);
 extern int64 step_run(ShardChange *change, const bool *which, Arrival kind, const char *how);
-extern void step_follow_owners(ShardChange *change, const bool *owners);
+extern void step_follow_owners(ShardChange *change);
 extern void step_exchange(ShardChange *change);
 
 #endif
