@@ -358,6 +358,57 @@ TYPED_TEST(Shards, HaveAttributesApart) {
     this->expect_same(points);
 }
 
+TYPED_TEST(Shards, SayAroundAllVerticesWhatTheySayAtOnce) {
+    constexpr int D = TypeParam::value;
+    for (const PointSet<D> &set : point_sets<D>()) {
+        SCOPED_TRACE(set.name);
+        auto points = set.points(this->random);
+        std::shuffle(points.begin(), points.end(), this->random);
+        points.resize(std::min<std::size_t>(points.size(), 700));
+        const auto inputs = this->number(points);
+        this->plan(inputs, 4);
+        MeshOf<D> mesh(1); // of some of the points: so it calls for others
+        mesh.header.facts.form = this->form;
+        ASSERT_EQ(mesh.insert(inputs), ABACUS_OK) << mesh.error.message;
+        if (mesh.header.facts.census.simplices == 0) continue;
+        using Sent = std::set<std::pair<std::uint32_t, Point<D>>>;
+        Sent all, around;
+        abacus_exports *exports = nullptr;
+        ASSERT_EQ(abacus_exports_open(mesh.host.table(), &mesh.header.facts, this->borders.data(),
+                                      this->borders.size(), 1, &this->extent, &exports,
+                                      &mesh.error),
+                  ABACUS_OK);
+        std::uint32_t to;
+        abacus_vertex vertex;
+        while (abacus_exports_next(exports, &to, &vertex, &mesh.error) == ABACUS_OK) {
+            Point<D> p;
+            std::copy_n(vertex.point, D, p.begin());
+            all.emplace(to, p);
+        }
+        const auto report = [](void *sent, std::uint32_t shard, const abacus_vertex *found) {
+            Point<D> p;
+            std::copy_n(found->point, D, p.begin());
+            static_cast<Sent *>(sent)->emplace(shard, p);
+            return ABACUS_HOST_OK;
+        };
+        for (const Point<D> &p : points)
+            ASSERT_EQ(abacus_exports_around(exports, p.data(), report, &around, &mesh.error),
+                      ABACUS_OK)
+                << mesh.error.message;
+        EXPECT_TRUE(all == around) << all.size() << " at once, " << around.size() << " around";
+        Point<D> beside = points[0]; // no vertex is there
+        beside[0] = std::nextafter(beside[0], 1e9);
+        if (std::find(points.begin(), points.end(), beside) == points.end()) {
+            const std::size_t before = around.size();
+            ASSERT_EQ(abacus_exports_around(exports, beside.data(), report, &around, &mesh.error),
+                      ABACUS_OK);
+            EXPECT_EQ(around.size(), before);
+        }
+        abacus_exports_close(exports);
+        EXPECT_EQ(mesh.host.bytes, 0u);
+    }
+}
+
 TYPED_TEST(Shards, SendFewPoints) {
     constexpr int D = TypeParam::value;
     std::vector<Point<D>> points(D == 2 ? 60000 : 30000);
