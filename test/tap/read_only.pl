@@ -90,6 +90,7 @@ my @writes = (
 	q{SELECT abacus_shard_create('new', '{shard}')},
 	q{CALL abacus_shard_build('wide', 'TABLE points')},
 	q{SELECT abacus_shard_drop('wide')},
+	q{SELECT abacus_shard_resolve('wide')},
 	q{SELECT abacus_tiles('field', world => '{0,0,200}')},
 	q{SELECT abacus_publish('mesh')},
 	q{SELECT abacus_unpublish('field')});
@@ -119,7 +120,7 @@ my $listed = join ' ', map { /\b(abacus_\w+)\(/ } @writes, @reads;
 my @unlisted = grep { $listed !~ /\b$_\b/ } split /\n/, $node->safe_psql('postgres', <<'SQL');
 SELECT DISTINCT proname FROM pg_proc JOIN pg_depend ON objid = pg_proc.oid AND deptype = 'e' AND classid = 'pg_proc'::regclass
 WHERE refobjid = (SELECT oid FROM pg_extension WHERE extname = 'abacus') AND (provolatile = 'v' OR prokind = 'p')
-	AND proname !~ '^abacus_shard_(?!create|build|drop)' AND NOT prorettype = ANY ('{internal,fdw_handler,trigger}'::regtype[]) AND proname NOT IN ('abacus_fdw_validator')
+	AND proname !~ '^abacus_shard_(?!create|build|drop|resolve)' AND NOT prorettype = ANY ('{internal,fdw_handler,trigger}'::regtype[]) AND proname NOT IN ('abacus_fdw_validator')
 SQL
 is("@unlisted", '', 'every volatile function is listed here');
 

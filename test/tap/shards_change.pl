@@ -229,6 +229,25 @@ is_same('an error that is caught');
 	$two->quit;
 }
 is_same('two sessions');
+# the check sees each change whole
+fails("BEGIN; SELECT abacus_insert('many', 'SELECT 1, 2, 3, 4'); SELECT * FROM abacus_check('many')", qr/55006.*cannot check/, 'a check in a transaction with changes');
+{
+	my ($out, $err) = ('', '');
+	my $sql = join('', map { "SELECT abacus_insert('many', 'SELECT 920 + i, i / 9.0, (i * 4 % 9) / 9.0, 1 FROM generate_series(1, 8) AS i');\n"
+		. "SELECT abacus_delete('many', 'SELECT 920 + i, i / 9.0, (i * 4 % 9) / 9.0 FROM generate_series(1, 8) AS i');\n" } 1 .. 40);
+	my $writer = IPC::Run::start([ 'psql', '-XqAt', '-v', 'ON_ERROR_STOP=1', '-d', $node->connstr('postgres') ], '<', \$sql, '>', \$out, '2>', \$err);
+	my $faults = '';
+	my $checks = 0;
+	while ($writer->pumpable && $checks < 25)
+	{
+		$writer->pump_nb;
+		$faults .= $node->safe_psql('postgres', "SELECT * FROM abacus_check('many')");
+		$checks++;
+	}
+	$writer->finish;
+	is("$faults$err", '', "$checks checks beside a writer");
+}
+is_same('checked beside a writer');
 
 # ---- Failures -----------------------------------------------------------------------------------------------
 

@@ -158,6 +158,33 @@ generation_read_links(Oid relid, Generation *generation, ShardLinks *links)
 	}
 }
 
+/*
+ * Begins transactions on other connections, which see the shards as one change has left them, and reads the
+ * generation anew if there was one since. Returns -1, or the number of a shard that is not as the row says.
+ */
+int
+generation_begin_together(Generation *generation, ShardLinks *links)
+{
+	for (int step = 1, waited = 0;; waited += step, step = Min(2 * step, LONGEST_PAUSE))
+	{
+		int			other = -1;
+
+		for (int i = 0; i < links->count; i++)
+			link_do(links, i, "BEGIN ISOLATION LEVEL REPEATABLE READ");
+		for (int i = 0; i < links->count; i++)
+			link_send(links, i, shard_sql_version(generation, i));
+		for (int i = 0; i < links->count; i++)
+			if (link_int64(links, i) != generation->versions[i])
+				other = i;
+		if (other < 0 || waited > PATIENCE)
+			return other;
+		for (int i = 0; i < links->count; i++)
+			link_do(links, i, "ROLLBACK");
+		let_pass(step);
+		read_newest(generation->relid, generation);
+	}
+}
+
 /* An error if the connection no longer sees the shard as the generation was read. */
 void
 generation_require_seen(const Generation *generation, ShardLinks *links, int shard)

@@ -1,11 +1,12 @@
 /*
  * shard_check.c: the verification of a mesh over several servers, and its figures.
  *
- * Each server verifies its own mesh. Then three things are left (docs/design/servers.md):
+ * Each server verifies its own mesh. Then four things are left (docs/design/servers.md):
  *
- *   1. A shard has its own points, and guests that others own.
- *   2. Guests are what their owners have: place, id and attributes.
- *   3. The exchange has ended: no shard has a vertex to send that its receiver lacks.
+ *   1. Each shard has the version that the coordinator's row names.
+ *   2. A shard has its own points, and guests that others own.
+ *   3. Guests are what their owners have: place, id and attributes.
+ *   4. The exchange has ended: no shard has a vertex to send that its receiver lacks.
  *
  * With that, the simplices of all shards are the triangulation of all points, each once, and both sides
  * of each facet on a border are there. Vertices travel as in the exchange, into temporary tables.
@@ -20,10 +21,12 @@
 #include "utils/tuplestore.h"
 
 #include "pg/mesh/mesh.h"
+#include "pg/shards/generation_links.h"
 #include "pg/shards/relay.h"
 #include "pg/shards/shard_check.h"
 #include "pg/shards/shard_sql.h"
 #include "pg/shards/shard_state.h"
+#include "pg/shards/shard_transaction.h"
 
 /* Columns of abacus_check and of abacus_stats */
 enum
@@ -132,14 +135,30 @@ send_vertices(Examination *examination, ShardLinks *links, char *(*found) (const
 }
 
 static void
+begin_check(Examination *examination, ShardLinks *links)
+{
+	int			other = generation_begin_together(&examination->generation, links);
+
+	if (other >= 0)
+	{
+		bool		isnull[FAULT_COLUMNS] = {[FAULT_CODE] = true,[FAULT_PART] = true};
+		Datum		values[FAULT_COLUMNS] = {[FAULT_KIND] = CStringGetTextDatum("shards")};
+
+		values[FAULT_MESSAGE] = CStringGetTextDatum(psprintf("shard %d: it is not as the mesh was last changed", other + 1));
+		put_fault(examination, values, isnull);
+	}
+}
+
+static void
 check_shards(ShardLinks *links, void *context)
 {
 	Examination *examination = context;
 	Generation *generation = &examination->generation;
 
+	begin_check(examination, links);
 	check_meshes(examination, links);
 	for (int i = 0; i < links->count; i++)
-		link_do(links, i, psprintf("BEGIN ISOLATION LEVEL REPEATABLE READ; %s", shard_sql_make_room()));
+		link_do(links, i, shard_sql_make_room());
 	for (int i = 0; i < links->count; i++)
 		link_send(links, i, shard_sql_strangers(generation, i));
 	collect_counts(examination, links, "points that another shard owns are not listed as guests, or listed and not there");
@@ -167,6 +186,7 @@ shard_check(FunctionCallInfo fcinfo)
 				(errcode(ERRCODE_NULL_VALUE_NOT_ALLOWED),
 				 errmsg("max_faults must not be NULL")));
 	open_examination(&examination, fcinfo, &links);
+	shard_transaction_refuse_changed(examination.generation.relid, "check");
 	examination.left = PG_GETARG_INT32(1);
 	if (examination.left > 0 && examination.generation.points > 0)
 		links_run(&links, check_shards, &examination);

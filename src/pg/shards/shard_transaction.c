@@ -102,23 +102,30 @@ shard_transaction_end(Connection *connection)
 	forget(connection);
 }
 
+/* For work on a mesh over other connections, which do not see what the transaction has changed. */
+void
+shard_transaction_refuse_changed(Oid mesh, const char *work)
+{
+	Connection *connection = NULL;
+
+	while ((connection = connection_next(connection)) != NULL)
+		if (connection->kind == CONNECTION_OF_TRANSACTION && connection->mesh == mesh && connection->changed > 0)
+			ereport(ERROR,
+					(errcode(ERRCODE_OBJECT_IN_USE),
+					 errmsg("cannot %s a mesh over several servers in the transaction that has changed it", work),
+					 errhint("Commit the change first, or roll it back.")));
+}
+
 /* Before a mesh is dropped, over other connections: servers keep no locks on it for this transaction. */
 void
 shard_transaction_leave(Oid mesh)
 {
 	Connection *connection = NULL;
 
+	shard_transaction_refuse_changed(mesh, "drop");
 	while ((connection = connection_next(connection)) != NULL)
-	{
-		if (connection->kind != CONNECTION_OF_TRANSACTION || connection->mesh != mesh || connection->conn == NULL)
-			continue;
-		if (connection->changed > 0)
-			ereport(ERROR,
-					(errcode(ERRCODE_OBJECT_IN_USE),
-					 errmsg("cannot drop a mesh over several servers in the transaction that has changed it"),
-					 errhint("Commit the change first, or roll it back.")));
-		shard_transaction_end(connection);
-	}
+		if (connection->kind == CONNECTION_OF_TRANSACTION && connection->mesh == mesh && connection->conn != NULL)
+			shard_transaction_end(connection);
 }
 
 /* Before anything that may fail: if it does, changes of levels above are kept. */

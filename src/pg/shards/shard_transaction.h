@@ -11,6 +11,7 @@
 extern bool shard_transaction_is_open(const Connection *connection);
 extern void shard_transaction_send(Connection *connection, const char *query);
 extern void shard_transaction_end(Connection *connection);
+extern void shard_transaction_refuse_changed(Oid mesh, const char *work);
 extern void shard_transaction_leave(Oid mesh);
 extern void shard_transaction_guard(Connection *connection);
 extern void shard_transaction_change(Connection *connection, const char *prefix);

@@ -6,6 +6,7 @@
 
 #include "executor/spi.h"
 #include "funcapi.h"
+#include "miscadmin.h"
 #include "utils/builtins.h"
 #include "utils/lsyscache.h"
 
@@ -109,6 +110,7 @@ abacus_sql_shard_resolve(PG_FUNCTION_ARGS)
 	Generation	generation;
 	int64		resolved;
 
+	PreventCommandIfReadOnly("abacus_shard_resolve()");
 	mesh_require_sharded(relid);
 	SPI_connect();
 	generation_require_published(relid, &generation);
