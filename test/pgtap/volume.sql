@@ -41,5 +41,13 @@ SELECT results_eq($$ SELECT * FROM abacus_volume('after', 'before') $$, 'TABLE k
 SELECT results_eq($$ SELECT * FROM abacus_volume('after', '12.5') $$, $$ SELECT * FROM abacus_volume('after', 12.5) $$, 'a quoted number is a base');
 SELECT throws_matching($$ SELECT abacus_volume('after', 'elsewhere') $$, 'does not exist', '... and another text a mesh');
 SELECT lives_ok($$ SELECT abacus_volume('after', 12), abacus_volume('after', 12.5), abacus_volume('after', base => '12.5') $$, 'numbers are');
+-- triangles whose area is 0 in doubles
+CREATE TABLE flat AS SELECT * FROM (VALUES (1, -1::float8, -1::float8, 1::float8), (2, 1e-17, 2e-17, 2), (3, 1, 1, 6)) AS f (id, x, y, h);
+SELECT isnt(abacus_triangulate('flat_one', 'TABLE flat'), NULL, 'a flat triangle');
+SELECT isnt(abacus_triangulate('flat_level', 'SELECT id, x, y, 0.0::float8 AS h FROM flat'), NULL, '... and another');
+SELECT is(ARRAY[round(mean::numeric, 9), round(mean_absolute::numeric, 9), round((rms ^ 2 * 12)::numeric, 9)], ARRAY[3, 3, 122]::numeric[],
+    'means over a flat triangle') FROM abacus_compare('flat_one', 'flat_level');
+SELECT ok(area > 0 AND abs(net / area - 3) < 1e-9, 'the volume over it') FROM abacus_volume('flat_one', 'flat_level');
+
 SELECT * FROM finish();
 ROLLBACK;

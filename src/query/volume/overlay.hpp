@@ -119,7 +119,8 @@ template <int D> double rounding_error(const Piece<D> &cut, const Piece<D> &othe
     double power = length;
     for (int i = 1; i < D; ++i) power *= length;
     const double error = std::max(length, measure(cut) * (power / measure(other))) * roundings;
-    return error >= 0 ? error : std::numeric_limits<double>::infinity();
+    constexpr double most = 0x1p1000; // for any that is not known: a sum takes no infinities
+    return error < most ? error : most;
 }
 
 /// The portions that pairs of simplices have in common. At first they are computed in doubles, and
