@@ -91,8 +91,9 @@ add_options(ConnectionOptions *options, int count, const PQconninfoOption *known
 	return count;
 }
 
-static bool
-has_password(List *options)
+/* The option of that name, or NULL. */
+static DefElem *
+find_option(List *options, const char *name)
 {
 	ListCell   *cell;
 
@@ -100,25 +101,26 @@ has_password(List *options)
 	{
 		DefElem    *option = lfirst(cell);
 
-		if (strcmp(option->defname, "password") == 0)
-			return defGetString(option)[0] != '\0';
+		if (strcmp(option->defname, name) == 0)
+			return option;
 	}
-	return false;
+	return NULL;
+}
+
+static bool
+has_password(List *options)
+{
+	DefElem    *password = find_option(options, "password");
+
+	return password != NULL && defGetString(password)[0] != '\0';
 }
 
 static bool
 is_without_password(List *options)
 {
-	ListCell   *cell;
+	DefElem    *required = find_option(options, "password_required");
 
-	foreach(cell, options)
-	{
-		DefElem    *option = lfirst(cell);
-
-		if (strcmp(option->defname, "password_required") == 0)
-			return !defGetBoolean(option);
-	}
-	return false;
+	return required != NULL && !defGetBoolean(required);
 }
 
 ConnectionOptions

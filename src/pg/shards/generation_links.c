@@ -125,6 +125,25 @@ read_newest(Oid relid, Generation *generation)
 	PopActiveSnapshot();
 }
 
+/* A build begins with dropping what was replaced by the one before. An old snapshot still sees its row. */
+static void
+require_kept(const Generation *seen)
+{
+	Generation	kept;
+	bool		is_kept;
+
+	if (!IsolationUsesXactSnapshot())
+		return;
+	PushActiveSnapshot(GetLatestSnapshot());
+	is_kept = generation_read_numbered(seen->relid, seen->number, &kept);
+	PopActiveSnapshot();
+	if (!is_kept)
+		ereport(ERROR,
+				(errcode(ERRCODE_T_R_SERIALIZATION_FAILURE),
+				 errmsg("mesh \"%s\" was built again since the transaction began", get_rel_name(seen->relid)),
+				 errhint("Repeat the transaction.")));
+}
+
 /*
  * The generation that readers see, and connections to its shards, on which all queries of the transaction
  * see them as they belong together.
@@ -137,6 +156,7 @@ generation_read_links(Oid relid, Generation *generation, ShardLinks *links)
 	int			other;
 
 	generation_require_published(relid, generation);
+	require_kept(generation);
 	for (int step = 0; (other = open_and_compare(generation, links)) >= 0; step = Min(Max(1, 2 * step), LONGEST_PAUSE))
 	{
 		if (IsolationUsesXactSnapshot() && !any_has_changed(links))
