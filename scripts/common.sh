@@ -4,7 +4,18 @@
 ABACUS_ROOT=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 ABACUS_BUILD=$ABACUS_ROOT/build
 ABACUS_JOBS=${ABACUS_JOBS:-$(nproc)}
-ABACUS_POSTGRESQL=${ABACUS_POSTGRESQL:-15} # the major version that is tested
+
+# The major version of PostgreSQL in the Debian here; 15 in any other system.
+debian_postgresql() {
+    local VERSION_CODENAME=
+    . /etc/os-release
+    case $VERSION_CODENAME in
+    trixie) echo 17 ;;
+    forky | sid) echo 18 ;;
+    *) echo 15 ;;
+    esac
+}
+ABACUS_POSTGRESQL=${ABACUS_POSTGRESQL:-$(debian_postgresql)} # the major version that is built for and tested
 PG_CONFIG=${PG_CONFIG:-/usr/lib/postgresql/$ABACUS_POSTGRESQL/bin/pg_config}
 
 cd "$ABACUS_ROOT"

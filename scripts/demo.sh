@@ -93,7 +93,13 @@ load_quake() {
         -c "ALTER TABLE quake_points ADD PRIMARY KEY (id)"
 }
 
-scripts/install-dependencies.sh demo
+if [[ -n $view ]]; then
+    scripts/install-dependencies.sh view
+    heading "Building the viewer"
+    viewer/serve --build
+else
+    scripts/install-dependencies.sh demo
+fi
 heading "Building and installing the extension"
 timed "build and install the extension" install_extension
 mkdir -p "$pictures"
@@ -182,7 +188,6 @@ printf '%s\n' "${summary[@]}"
 # Until Ctrl+C; the viewer and the server of the database end with this script. If there is a screen, a browser opens.
 if [[ -n $view ]]; then
     heading "The meshes in a browser"
-    viewer/serve --build
     viewer/serve --port 8080 &
     viewer=$!
     trap 'kill "$viewer" 2>/dev/null || true; cluster_stop' EXIT

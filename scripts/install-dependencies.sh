@@ -1,17 +1,19 @@
 #!/bin/bash
 # Installs the Debian packages that Abacus is built, shown and tested with; if all are present, it does
-# nothing, in a fraction of a second. ABACUS_POSTGRESQL is the server's version; by default 15, that of Debian
-# 12.
+# nothing, in a fraction of a second. ABACUS_POSTGRESQL is the server's version; by default that of the Debian
+# here.
 #
 #   install-dependencies.sh build     what the extension needs
 #   install-dependencies.sh server    ... and tests in a server
 #   install-dependencies.sh versions  ... and tests of the core: all that another version is tested with
 #   install-dependencies.sh demo      ... and the data of the demo
+#   install-dependencies.sh view      ... and the viewer
 #   install-dependencies.sh test      ... and all tests, which run the benchmarks once (default)
 #   install-dependencies.sh bench     ... and perf
 set -euo pipefail
+. "$(dirname "$0")/common.sh"
 
-version=${ABACUS_POSTGRESQL:-15}
+version=$ABACUS_POSTGRESQL
 packages=(
     make g++ pkg-config libxxhash-dev libprotozero-dev
     "postgresql-$version" "postgresql-server-dev-$version"
@@ -54,17 +56,18 @@ bench=(
     linux-perf                      # finds the functions that take most time
 )
 
-# Node.js may be installed from elsewhere.
-command -v npm >/dev/null || test+=(nodejs npm)
+viewer=()
+command -v npm >/dev/null || viewer=(nodejs npm) # Node.js may be installed from elsewhere
 
 case ${1:-test} in
 build) ;;
 server) packages+=("${server[@]}") ;;
 versions) packages+=("${server[@]}" "${core[@]}") ;;
 demo) packages+=("${demo[@]}") ;;
-test) packages+=("${demo[@]}" "${test[@]}") ;;
-bench) packages+=("${demo[@]}" "${test[@]}" "${bench[@]}") ;;
-*) echo "usage: $0 [build|server|versions|demo|test|bench]" >&2; exit 2 ;;
+view) packages+=("${demo[@]}" "${viewer[@]}") ;;
+test) packages+=("${demo[@]}" "${viewer[@]}" "${test[@]}") ;;
+bench) packages+=("${demo[@]}" "${viewer[@]}" "${test[@]}" "${bench[@]}") ;;
+*) echo "usage: $0 [build|server|versions|demo|view|test|bench]" >&2; exit 2 ;;
 esac
 
 missing=()

@@ -1,5 +1,8 @@
 # Sourced by test.sh: the tests with another version of PostgreSQL, in a Debian that has it (chroot.sh).
 
+# All that a server and the core concerns. Other suites need the programs of Debian 12.
+version_suites="build-extension build unit unit-apart regress isolation pgtap tap acceptance"
+
 # other_postgresql N [short|NAME...]: runs test.sh there. It brings along what is compiled and installed
 # here: this server, for pg_upgrade from it, and in the short form the core.
 other_postgresql() {
@@ -19,7 +22,8 @@ other_postgresql() {
         set -- env ABACUS_SHORT=1 ABACUS_PACKAGES=$packages scripts/test.sh build-extension regress isolation pgtap tap acceptance
     else
         if [[ -e $build/brought ]]; then rm -r "$build"/{brought,extension,release}; fi
-        if ((!$#)); then set -- build-extension build unit unit-apart regress isolation pgtap tap acceptance; fi
+        # shellcheck disable=SC2086 # words
+        if ((!$#)); then set -- $version_suites; fi
         set -- scripts/test.sh "$@"
     fi
     exec scripts/chroot.sh "$version" "$@"

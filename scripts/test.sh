@@ -259,6 +259,10 @@ quick | usual | everything)
     size=${1:-usual}
     names=$(suites_of "$size" "$seed") || exit
     mapfile -t names <<<"$names"
+    if ((ABACUS_POSTGRESQL != 15)); then
+        mapfile -t names < <(printf '%s\n' "${names[@]}" | grep -xF "${version_suites// /$'\n'}")
+        echo "Only Debian 12 has all that is needed for every test. With PostgreSQL $ABACUS_POSTGRESQL, those of the server and the core are run."
+    fi
     if [[ $size != everything ]]; then
         most=1800 # seconds: a suite that hangs must not keep the others from being reported
         for name in "${names[@]}"; do by_turns[$name]=1; done
@@ -269,7 +273,9 @@ quick | usual | everything)
 *) size=named ;;
 esac
 choose "$@"
-scripts/install-dependencies.sh "${ABACUS_PACKAGES:-test}" || fail "packages are missing"
+packages=test
+if ((ABACUS_POSTGRESQL != 15)); then packages=versions; fi
+scripts/install-dependencies.sh "${ABACUS_PACKAGES:-$packages}" || fail "packages are missing"
 if ((EUID != 0)); then sudo -v || fail "sudo is needed: suites install the extension, and cannot ask for a password"; fi
 export ABACUS_BUILT=1 # tells the scripts below that all is built and installed
 export ABACUS_SEED=$seed

@@ -133,6 +133,12 @@ class Layout(unittest.TestCase):
                  and path.parent.as_posix() != "src/pg/port"]
         self.assertEqual(wrong, [])
 
+    def test_libraries_of_the_package_are_named_everywhere(self):
+        libraries = set(re.findall(r"^ (lib[\w-]+-dev)", (ROOT / "debian/control.in").read_text(), re.MULTILINE))
+        self.assertGreater(len(libraries), 5)
+        for name in ("Dockerfile", "docs/install.md", "scripts/install-dependencies.sh"):
+            self.assertEqual(libraries - set(re.findall(r"lib[\w-]+-dev", (ROOT / name).read_text())), set(), name)
+
     def test_documents_name_files_that_exist(self):
         wrong = []
         for name in DOCUMENTS:
