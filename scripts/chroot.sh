@@ -71,7 +71,12 @@ make_root() {
 
 # Runs the command with mounts of its own.
 run() {
+    local certificates=()
     mkdir -p build "$build"
+    if [[ -n ${NODE_EXTRA_CA_CERTS:-} ]]; then # npm may reach its registry through a proxy
+        cp -L "$NODE_EXTRA_CA_CERTS" "$root/etc/proxy.crt"
+        certificates=(NODE_EXTRA_CA_CERTS=/etc/proxy.crt)
+    fi
     # shellcheck disable=SC2016 # expanded in the chroot
     exec unshare --mount --propagation private --pid --fork --kill-child --mount-proc bash -c '
         set -euo pipefail
@@ -86,7 +91,7 @@ run() {
         exec chroot "$root" "$@"' bash "$root" "$ABACUS_ROOT" "$build" \
         /usr/bin/env -i HOME=/root LANG=C.UTF-8 TERM="${TERM:-dumb}" PYTHONDONTWRITEBYTECODE=1 \
         PATH=/usr/lib/ccache:/usr/local/sbin:/usr/local/bin:/usr/sbin:/usr/bin:/sbin:/bin \
-        ABACUS_CHROOT="$name" "${server[@]}" ABACUS_SHORTCUTS="${ABACUS_SHORTCUTS:-1}" \
+        ABACUS_CHROOT="$name" "${server[@]}" "${certificates[@]}" ABACUS_SHORTCUTS="${ABACUS_SHORTCUTS:-1}" \
         ${ABACUS_SEED:+ABACUS_SEED="$ABACUS_SEED"} ${ABACUS_KILLS:+ABACUS_KILLS="$ABACUS_KILLS"} \
         ABACUS_JOBS="$ABACUS_JOBS" ABACUS_WERROR="${ABACUS_WERROR-}" \
         bash -c 'cd /abacus && exec "$@"' bash "$@"
