@@ -298,6 +298,7 @@ PG_SOURCES += src/pg/base/float_array.c
 PG_SOURCES += src/pg/base/settings.c
 PG_SOURCES += src/pg/base/snapshot_mark.c
 PG_SOURCES += src/pg/base/utility.c
+PG_SOURCES += src/pg/connect/cancel_request.c
 PG_SOURCES += src/pg/connect/connection.c
 PG_SOURCES += src/pg/connect/connection_options.c
 PG_SOURCES += src/pg/connect/connection_query.c

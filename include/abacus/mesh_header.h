@@ -30,11 +30,16 @@ typedef struct abacus_header
 #ifdef __cplusplus
 	abacus_header() = default;
 	abacus_header(const abacus_header &other) { copy(other); }
-	abacus_header &operator=(const abacus_header &other) { return copy(other); }
+	abacus_header &operator=(const abacus_header &other)
+	{
+		if (this != &other)
+			copy(other);
+		return *this;
+	}
 	operator const abacus_facts &() const { return facts; }
 
   private:
-	abacus_header &copy(const abacus_header &other);
+	void copy(const abacus_header &other);
 #endif
 } abacus_header;
 
@@ -45,17 +50,16 @@ abacus_header_copy(abacus_header *to, const abacus_header *from)
 	const abacus_columns *columns = &from->facts.columns;
 
 	if (to != from)
-		memcpy((void *) to, from,
+		memcpy((void *) to, (const void *) from,
 			   offsetof(abacus_header, names) +
 				   (size_t) (columns->attributes + columns->labels) * ABACUS_NAME_BYTES);
 }
 
 #ifdef __cplusplus
-inline abacus_header &
+inline void
 abacus_header::copy(const abacus_header &other)
 {
 	abacus_header_copy(this, &other);
-	return *this;
 }
 #endif
 

@@ -103,11 +103,11 @@ void AttributePageWriter::number_points(const std::uint64_t *rows, std::size_t n
                                                       rows + b.offset + dimension_);
     };
     std::sort(corners_.begin(), corners_.end(),
-              [&](const Corner &a, const Corner &b) { return order(a, b) < 0; });
+              [&](const Corner &a, const Corner &b) { return std::is_lt(order(a, b)); });
     numbers_.resize(corners_.size());
     table_.clear();
     for (std::size_t i = 0; i < corners_.size(); ++i) {
-        if (i == 0 || order(corners_[i - 1], corners_[i]) != 0)
+        if (i == 0 || std::is_neq(order(corners_[i - 1], corners_[i])))
             std::copy_n(rows + corners_[i].offset, dimension_, table_.extend(dimension_));
         numbers_[corners_[i].place] = points() - 1;
     }

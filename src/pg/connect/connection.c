@@ -23,6 +23,7 @@
 #include "utils/syscache.h"
 #include "utils/wait_event.h"
 
+#include "pg/connect/cancel_request.h"
 #include "pg/connect/connection_options.h"
 #include "pg/connect/connection_record.h"
 #include "pg/port/port.h"
@@ -51,13 +52,8 @@ disconnect(Connection *connection)
 void
 connection_cancel(Connection *connection)
 {
-	PGcancel   *cancel = connection->is_busy ? PQgetCancel(connection->conn) : NULL;
-	char		problem[256];
-
-	if (cancel == NULL)
-		return;
-	(void) PQcancel(cancel, problem, sizeof(problem));
-	PQfreeCancel(cancel);
+	if (connection->is_busy)
+		cancel_request(connection->conn);
 }
 
 /* Ends what runs there, and the connection. Raises no error. */

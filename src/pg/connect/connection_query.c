@@ -35,9 +35,11 @@ connection_is_busy(const Connection *connection)
 void
 connection_wait(PGconn *conn, int events)
 {
-	int			happened = WaitLatchOrSocket(MyLatch, WL_LATCH_SET | WL_EXIT_ON_PM_DEATH | events, PQsocket(conn), -1,
-											 PG_WAIT_EXTENSION);
+	int			happened;
 
+	CHECK_FOR_INTERRUPTS();		/* one may be pending whose latch was reset by a wait without errors */
+	happened = WaitLatchOrSocket(MyLatch, WL_LATCH_SET | WL_EXIT_ON_PM_DEATH | events, PQsocket(conn), -1,
+								 PG_WAIT_EXTENSION);
 	if (happened & WL_LATCH_SET)
 	{
 		ResetLatch(MyLatch);
