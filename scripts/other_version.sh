@@ -24,7 +24,7 @@ other_postgresql() {
         if [[ -e $build/brought ]]; then rm -r "$build"/{brought,extension,release}; fi
         # shellcheck disable=SC2086 # words
         if ((!$#)); then set -- $version_suites; fi
-        set -- scripts/test.sh "$@"
+        set -- env ABACUS_WERROR= scripts/test.sh "$@" # newer compilers warn of other things in the core
     fi
     exec scripts/chroot.sh "$version" "$@"
 }
