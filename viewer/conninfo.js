@@ -1,5 +1,9 @@
 // Where the database is: a conninfo string as libpq takes it, `host=… dbname=…` or a URI, for the
-// package pg. What it does not say is in the environment (PGHOST and so on), as always.
+// package pg. What it does not say is in the environment (PGHOST and so on), as always; otherwise the server is
+// this machine's, reached by its socket if it has one, and the user is the one who calls.
+import { readdirSync } from "node:fs";
+import { userInfo } from "node:os";
+import pg from "pg";
 
 const names = { host: "host", hostaddr: "host", port: "port", dbname: "database", user: "user", password: "password",
     application_name: "application_name", sslmode: "sslmode", options: "options" };
@@ -17,7 +21,17 @@ function pairs(text) {
     return found;
 }
 
+const hasSocket = (folder) => {
+    try {
+        return readdirSync(folder).some((name) => name.startsWith(".s.PGSQL."));
+    } catch {
+        return false;
+    }
+};
+
 export function connection(text) {
+    pg.defaults.host = ["/var/run/postgresql", "/tmp"].find(hasSocket) ?? "localhost";
+    pg.defaults.user ??= userInfo().username;
     if (!text) return {};
     if (/^postgres(ql)?:\/\//.test(text)) return { connectionString: text };
     if (!text.includes("=")) return { database: text };

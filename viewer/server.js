@@ -258,7 +258,8 @@ if (process.argv[1] === new URL(import.meta.url).pathname) {
             for (const signal of ["SIGINT", "SIGTERM"]) process.once(signal, () => stop().then(() => process.exit(0)));
         }
     } catch (error) {
-        console.error(`viewer: ${error.message}${error.code?.startsWith?.("ERR_PARSE") ? `\n${usage}` : ""}`);
+        const cause = error.cause?.message || error.cause?.code;
+        console.error(`viewer: ${error.message}${cause ? `: ${cause}` : ""}${error.code?.startsWith?.("ERR_PARSE") ? `\n${usage}` : ""}`);
         process.exit(1);
     }
 }

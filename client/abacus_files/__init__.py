@@ -24,3 +24,10 @@ cells.py       cells of a raster as points
 copy_rows.py   rows in the binary form of COPY; load_points.py: those into a table, and a mesh
 load.py        that into tables, and a mesh; load_plan.py: likewise of points, lines and regions; load_faces.py: with triangles
 """
+import os
+import sys
+
+try:
+    import numpy  # noqa: F401
+except ModuleNotFoundError:
+    sys.exit(f"{os.path.basename(sys.argv[0])}: numpy is missing (python3-numpy in Debian)")
