@@ -52,7 +52,7 @@ END
 
 mode=${1:-full}
 case $mode in
-report | list | aims) exec python3 bench/suite "$mode" ;;
+report | list | aims) exec /usr/bin/python3 bench/suite "$mode" ;;
 pack)
     if [[ -z ${ABACUS_BUILT:-} ]]; then
         scripts/install-dependencies.sh test
@@ -73,4 +73,4 @@ if [[ -z ${ABACUS_BUILT:-} ]]; then
 fi
 cluster_start bench
 run_psql -c "CREATE EXTENSION abacus" -c "CREATE EXTENSION abacus_lab"
-python3 bench/suite "$mode" "$@"
+/usr/bin/python3 bench/suite "$mode" "$@"

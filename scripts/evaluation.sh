@@ -29,4 +29,4 @@ if [[ $mode != list && $mode != report ]]; then
     cluster_start evaluation
     run_psql -c "CREATE EXTENSION abacus" -c "CREATE EXTENSION abacus_lab"
 fi
-PYTHONPATH=bench/suite python3 bench/evaluation "$mode" "$@"
+PYTHONPATH=bench/suite /usr/bin/python3 bench/evaluation "$mode" "$@"

@@ -21,16 +21,19 @@ function pairs(text) {
     return found;
 }
 
-const hasSocket = (folder) => {
-    try {
-        return readdirSync(folder).some((name) => name.startsWith(".s.PGSQL."));
-    } catch {
-        return false;
-    }
-};
+/** The first folder with a server's socket, among those where libpq of Debian and of PostgreSQL looks. */
+export function folderOfSocket(folders = ["/var/run/postgresql", "/tmp"]) {
+    return folders.find((folder) => {
+        try {
+            return readdirSync(folder).some((name) => name.startsWith(".s.PGSQL."));
+        } catch {
+            return false;
+        }
+    });
+}
 
 export function connection(text) {
-    pg.defaults.host = ["/var/run/postgresql", "/tmp"].find(hasSocket) ?? "localhost";
+    pg.defaults.host = folderOfSocket() ?? "localhost";
     pg.defaults.user ??= userInfo().username;
     if (!text) return {};
     if (/^postgres(ql)?:\/\//.test(text)) return { connectionString: text };

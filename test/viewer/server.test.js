@@ -7,7 +7,7 @@ import http from "node:http";
 import net from "node:net";
 import { after, before, test } from "node:test";
 import { promisify } from "node:util";
-import { connection } from "../../viewer/conninfo.js";
+import { connection, folderOfSocket } from "../../viewer/conninfo.js";
 import { Database } from "../../viewer/database.js";
 import { connect, eventually, makeMeshes, psql, serve } from "./support.js";
 
@@ -505,6 +505,11 @@ test("connection strings are read as libpq does", () => {
     assert.deepEqual(connection(undefined), {});
     assert.throws(() => connection("host=a colour=b"), /does not know/);
     assert.throws(() => connection("host=a b"), /cannot read/);
+});
+
+test("without a host the server is this machine's", () => {
+    assert.equal(folderOfSocket(["/nowhere", "/usr", process.env.PGHOST]), process.env.PGHOST);
+    assert.equal(folderOfSocket(["/nowhere", "/usr"]), undefined);
 });
 
 test("packages have fixed versions and a hash, and come from npm's registry", () => {
