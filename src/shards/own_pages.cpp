@@ -1,5 +1,7 @@
 #include "shards/own_pages.hpp"
 
+#include "mesh/page_attributes.hpp"
+
 #include <abacus/standing.h>
 
 #include <algorithm>

@@ -2,6 +2,7 @@
 
 #include "geometry/linear_system.hpp"
 #include "geometry/rational.hpp"
+#include "host/error.hpp"
 
 namespace abacus::exact {
 
