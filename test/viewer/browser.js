@@ -9,6 +9,7 @@ const { chromium } = packages("playwright-core");
 export const pictures = process.env.VIEWER_PICTURES ?? "build/test/viewer";
 
 export let browser, page, servers, asked;
+let unanswered;
 let complaints, refusals;
 /** Complaints of the browser in its console that the test expects: requests that the server must refuse. */
 export const refuses = (pattern) => { refusals = pattern; };
@@ -31,7 +32,9 @@ export function setUp(prepare = async () => ({})) {
         asked = [];
         complaints = [];
         refusals = /^$/;
-        page.on("request", (request) => asked.push(request.url()));
+        unanswered = new Set();
+        page.on("request", (request) => (asked.push(request.url()), unanswered.add(request)));
+        for (const end of ["requestfinished", "requestfailed"]) page.on(end, (request) => unanswered.delete(request));
         page.on("console", (message) => message.type() === "error" && complaints.push(message.text()));
         page.on("pageerror", (error) => complaints.push(error.message));
     });
@@ -45,7 +48,10 @@ export function setUp(prepare = async () => ({})) {
 
 export const open = async (name) => {
     await page.goto(servers[name].origin);
-    await page.waitForSelector("#view[data-ready=true]");
+    await page.waitForSelector("#view[data-ready=true]").catch(async (error) => {
+        const waiting = [...unanswered].map((request) => request.url()).join(" ") || "no answer";
+        throw new Error(`${error.message}\nThe page waits for ${waiting} and says: ${await answer()}\n${complaints.join("\n")}`);
+    });
 };
 export const canvas = () => page.locator("#view canvas");
 const said = () => {
