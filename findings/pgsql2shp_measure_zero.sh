@@ -11,12 +11,7 @@
 set -euo pipefail
 . "$(dirname "$0")/tools.bash"
 
-unpack postgresql-15=15.20-0+deb12u1 postgresql-client-15=15.20-0+deb12u1 libpq5=15.20-0+deb12u1 \
-    postgresql-15-postgis-3=3.3.2+dfsg-1+b1 postgresql-15-postgis-3-scripts=3.3.2+dfsg-1 postgis=3.3.2+dfsg-1+b1 \
-    gdal-bin=3.6.2+dfsg-1+b2
-for control in "$tmp"/usr/share/postgresql/15/extension/*-3.control; do
-    mv "$control" "${control%-3.control}.control"
-done
+unpack_postgis postgis=3.3.2+dfsg-1+b1 gdal-bin=3.6.2+dfsg-1+b2
 start_server
 programs=$tmp/usr/bin
 export PROJ_LIB=$tmp/usr/share/proj GDAL_DATA=$tmp/usr/share/gdal
@@ -31,7 +26,7 @@ read_by_gdal() {
 
 read_by_postgis() {
     "$programs/shp2pgsql" "${@:2}" "$1" again 2>/dev/null | psql -XqAtd postgres >/dev/null
-    psql -XqAtd postgres -c "SELECT ST_AsText(geom) FROM again"
+    value "ST_AsText(geom) FROM again"
 }
 
 "$programs/pgsql2shp" -u owner -f sites postgres sites >/dev/null 2>&1
@@ -39,7 +34,7 @@ echo '{"type": "Point", "coordinates": [1, 2, 3]}' >point.json
 "$programs/ogr2ogr" -q other.shp point.json
 
 expect "version" "3.3.2, GDAL 3.6.2" \
-    "$(psql -XqAtd postgres -c "SELECT PostGIS_Lib_Version()"), $("$programs/ogrinfo" --version | grep -oE 'GDAL [0-9.]+')"
+    "$(value "PostGIS_Lib_Version()"), $("$programs/ogrinfo" --version | grep -oE 'GDAL [0-9.]+')"
 expect "written by ogr2ogr, read by GDAL" "POINT Z (1 2 3)" "$(read_by_gdal other.shp)"
 expect "written by pgsql2shp, read by GDAL" "POINT ZM (1 2 3 0)" "$(read_by_gdal sites.shp)"
 expect "... by PostGIS" "POINT ZM (1 2 3 0)" "$(read_by_postgis sites.shp)"

@@ -23,10 +23,6 @@ psql -Xqd postgres -c "CREATE EXTENSION pointcloud" -c "INSERT INTO pointcloud_f
     -c "CREATE TABLE patches AS SELECT PC_Patch(PC_MakePoint(1, ARRAY[i * 0.01, i, i, (i % 4 = 0)::integer])) AS patch FROM generate_series(1, 8) AS i" \
     -c "CREATE TABLE tens AS SELECT PC_Patch(PC_MakePoint(1, ARRAY[i * 0.01, i, i, 0])) AS patch FROM generate_series(1, 10) AS i"
 
-value() {
-    psql -XqAtd postgres -c "SELECT $1"
-}
-
 exact() {
     value "avg(PC_Get(point, '$2'))::float8 FROM $1, PC_Explode(patch) AS point"
 }

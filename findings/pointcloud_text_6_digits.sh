@@ -20,10 +20,6 @@ double() {
 psql -Xqd postgres -c "CREATE EXTENSION pointcloud" -c "INSERT INTO pointcloud_formats (pcid, srid, schema) VALUES (1, 0,
     '<?xml version=\"1.0\"?><pc:PointCloudSchema xmlns:pc=\"http://pointcloud.org/schemas/PC/1.1\">$(double 1 X)$(double 2 Y)$(double 3 Z)</pc:PointCloudSchema>')"
 
-value() {
-    psql -XqAtd postgres -c "SELECT $1"
-}
-
 expect "version" 1.2.4 "$(value "extversion FROM pg_extension WHERE extname = 'pointcloud'")"
 point="PC_MakePoint(1, ARRAY[500000.25, 5000000.75, 101.3456789])"
 expect "a point as text" '{"pcid":1,"pt":[500000,5e+06,101.346]}' "$(value "PC_AsText($point)")"

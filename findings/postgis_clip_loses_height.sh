@@ -16,10 +16,6 @@ unpack_postgis
 start_server
 psql -Xqd postgres -c "CREATE EXTENSION postgis"
 
-value() {
-    psql -XqAtd postgres -c "SELECT $1"
-}
-
 expect "version" "3.3.2, GEOS 3.11.1" "$(value "postgis_lib_version() || ', GEOS ' || split_part(postgis_geos_version(), '-', 1)")"
 line="'LINESTRING Z (0 0 2, 4 0 8)'::geometry"
 polygon="'POLYGON Z ((0 0 0, 4 0 0, 0 4 8, 0 0 0))'::geometry"

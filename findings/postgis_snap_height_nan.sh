@@ -15,10 +15,6 @@ unpack_postgis
 start_server
 psql -Xqd postgres -c "CREATE EXTENSION postgis"
 
-value() {
-    psql -XqAtd postgres -c "SELECT $1"
-}
-
 line="'LINESTRING Z (0 0 0, 5 0.1 5, 10 0 10)'::geometry"
 straight="'LINESTRING Z (0 0 0, 10 0 10)'::geometry"
 snapped="ST_Snap($line, 'POINT (5 0)', 0.5)"

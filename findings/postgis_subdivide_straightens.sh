@@ -16,10 +16,6 @@ unpack_postgis
 start_server
 psql -Xqd postgres -c "CREATE EXTENSION postgis"
 
-value() {
-    psql -XqAtd postgres -c "SELECT $1"
-}
-
 line="'LINESTRING Z (0 0 0, 10 10 10, 20 20 30, 30 30 31, 40 40 32, 50 50 33)'::geometry"
 bent="'LINESTRING Z (0 0 0, 10 1 10, 20 0 30, 30 1 31, 40 0 32, 50 1 33)'::geometry"
 wall="'POLYGON Z ((0 0 0, 10 0 50, 20 0 0, 30 0 70, 40 0 0, 40 10 0, 30 10 0, 20 10 0, 10 10 0, 0 10 0, 0 0 0))'::geometry"

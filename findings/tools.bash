@@ -19,10 +19,10 @@ unpack() {
     done
 }
 
-# unpack_postgis: PostgreSQL 15 with PostGIS 3.3.2. An installation links the control files.
+# unpack_postgis [NAME=VERSION...]: PostgreSQL 15 with PostGIS 3.3.2, and these packages. An installation links the control files.
 unpack_postgis() {
     unpack postgresql-15=15.20-0+deb12u1 postgresql-client-15=15.20-0+deb12u1 libpq5=15.20-0+deb12u1 \
-        postgresql-15-postgis-3=3.3.2+dfsg-1+b1 postgresql-15-postgis-3-scripts=3.3.2+dfsg-1
+        postgresql-15-postgis-3=3.3.2+dfsg-1+b1 postgresql-15-postgis-3-scripts=3.3.2+dfsg-1 "$@"
     for control in "$tmp"/usr/share/postgresql/15/extension/*-3.control; do
         mv "$control" "${control%-3.control}.control"
     done
@@ -41,6 +41,11 @@ start_server() {
     server=started
     "${as[@]}" "$(command -v pg_ctl)" -s -w -l "$tmp/server.log" \
         -o "-k '$tmp' -c listen_addresses= -c fsync=off" start
+}
+
+# value EXPRESSION: what the server makes of it.
+value() {
+    psql -XqAtd postgres -c "SELECT $1"
 }
 
 stop_server() {
