@@ -1,6 +1,7 @@
 // Connections to the database. Those that read are a small pool, read-only, with a limit on the time
-// of a statement. Changes that are not saved have a connection of their own (edits.js). A client that
-// goes away cancels its statement. A connection that breaks ends the statements on it, never the server.
+// of a statement. What may take long, and is done once for all, has other connections, without a limit.
+// Changes that are not saved have a connection of their own (edits.js). A client that goes away cancels
+// its statement. A connection that breaks ends the statements on it, never the server.
 import pg from "pg";
 import { Sessions } from "./edits.js";
 import { ask, Away, Refused } from "./errors.js";
@@ -8,16 +9,25 @@ import { ask, Away, Refused } from "./errors.js";
 const mostReaders = 4;
 const lockWait = 1000; // ms: another change of a few points is over by then
 const slack = 10_000; // ms beyond the limit of a statement: then the network is broken
+const mostLong = 2;
+const forever = 2 ** 31 - 1; // ms: pg takes 0 as its default
 
 export class Database {
     constructor(config, { timeout, edit, idle = 600_000, absent = 120_000 }) {
         this.config = { ...config, application_name: "abacus viewer", connectionTimeoutMillis: 10_000, keepAlive: true, query_timeout: timeout + slack };
         Object.assign(this, { timeout, edit, idle });
-        this.pool = new pg.Pool({ ...this.config, max: mostReaders });
-        this.pool.on("error", () => {}); // an idle connection that is gone is replaced
-        this.pool.on("connect", (client) => client.on("error", () => {})); // one in use: what is asked on it fails
+        this.pool = this.connections({ max: mostReaders });
+        this.long = this.connections({ max: mostLong, connectionTimeoutMillis: 0 }); // requests wait until one is free
+        this.ending = new AbortController();
         this.sessions = new Sessions(this, { idle, absent });
         this.prepared = new WeakSet();
+    }
+
+    connections(options) {
+        const pool = new pg.Pool({ ...this.config, ...options });
+        pool.on("error", () => {}); // an idle connection that is gone is replaced
+        pool.on("connect", (client) => client.on("error", () => {})); // one in use: what is asked on it fails
+        return pool;
     }
 
     /** The oid of a mesh by its name, as the user's search_path has it. */
@@ -54,8 +64,18 @@ export class Database {
         return session?.edit ? session.read(task, signal) : this.readSaved(task, signal);
     }
 
-    async readSaved(task, signal) {
-        const client = await this.connect();
+    /** The same of what is saved, once for all: it goes on when a client leaves. */
+    alone(task) {
+        return this.readSaved(task, this.ending.signal, this.long);
+    }
+
+    /** Whether a session has changes that are not saved. */
+    isEditing(token) {
+        return Boolean(token && this.sessions.get(token).edit);
+    }
+
+    async readSaved(task, signal, pool = this.pool) {
+        const client = await this.connect(pool);
         let isBroken = false;
         try {
             await this.prepare(client, true);
@@ -71,9 +91,9 @@ export class Database {
         }
     }
 
-    async connect() {
+    async connect(pool) {
         try {
-            return await this.pool.connect();
+            return await pool.connect();
         } catch (error) {
             // So the pool says that all its connections are in use.
             throw error.message.startsWith("timeout exceeded") ? new Refused(503, "too many requests are waiting for the database") : new Away(error);
@@ -94,15 +114,18 @@ export class Database {
         }
     }
 
-    /** A function that returns the rows of a statement. */
+    /** A function that returns the rows of a statement. One that is long has no limit, and must be in a transaction. */
     query(client, signal) {
-        return async (text, values) => {
+        return async (text, values, { isLong = false } = {}) => {
             let cancelled;
             const cancel = () => { cancelled = this.cancel(client.processID); };
             signal?.addEventListener("abort", cancel);
             try {
                 if (signal?.aborted) throw new Refused(499, "the client went away");
-                return (await ask(client, text, values)).rows;
+                if (isLong) await ask(client, "SET LOCAL statement_timeout = 0");
+                const { rows } = await ask(client, isLong ? { text, values, query_timeout: forever } : { text, values });
+                if (isLong) await ask(client, `SET LOCAL statement_timeout = ${this.timeout}`);
+                return rows;
             } finally {
                 signal?.removeEventListener("abort", cancel);
                 await cancelled; // before somebody else gets the connection
@@ -130,7 +153,8 @@ export class Database {
     }
 
     async end() {
+        this.ending.abort();
         await this.sessions.end();
-        await this.pool.end();
+        await Promise.all([this.pool.end(), this.long.end()]);
     }
 }

@@ -6,10 +6,33 @@ import { catalogue, kinds } from "./queries.js";
 
 export const mapped = [3857, 4326]; // what tiles are of
 const mostKnown = 200; // meshes of which the server keeps what it knows
+const mostStates = 4; // of a mesh: the saved one, and those of pages with changes
+
+/** What a request needs of a mesh is not known yet: learn() finds it, and then the request can be answered. */
+class Unknown extends Error {
+    constructor(mesh) {
+        super("not known yet");
+        this.mesh = mesh;
+    }
+}
+
+/** What attempt(learns) returns. It is made again once what it needed is known: to find that may take longer than a request
+    should hold one of the few connections. At last it finds it by itself, in case the mesh changes all the time. */
+export async function knowing(attempt, signal) {
+    for (let left = 3; left > 0; --left) {
+        try {
+            return await attempt(true);
+        } catch (error) {
+            if (!(error instanceof Unknown)) throw error;
+            await error.mesh.learn(signal);
+        }
+    }
+    return attempt(false);
+}
 
 /** What is known of the mesh; anew when it has changed. */
 export class Mesh {
-    constructor(database, options, oid) { Object.assign(this, { database, options, oid }); }
+    constructor(database, options, oid) { Object.assign(this, { database, options, oid, states: new Map(), learning: null }); }
 
     static async open(database, options, oid, signal) {
         const mesh = new Mesh(database, options, oid);
@@ -30,24 +53,35 @@ export class Mesh {
         return this.database.read(token, (query) => task(this.about(query)), signal);
     }
 
-    /** Queries of which the first parameter is the mesh. */
-    about(query) {
-        return (text, values = []) => query(text, [this.oid, ...values]);
+    /** Queries of which the first parameter is the mesh. With `learns` describe() does not read what is not known. */
+    about(query, learns = false) {
+        return Object.assign((text, values = [], more = {}) => query(text, [this.oid, ...values], more), { learns });
     }
 
+    /** What pages need to know of the mesh. The ranges of attributes are in all of its points, so each state of it is read once. */
     async describe(query) {
-        const [{ etag }] = this.queries.etag ? await query(this.queries.etag) : [{ etag: null }];
-        if (etag && this.known?.etag === etag) return this.known;
-        const [{ name, stats, attributes, labels, extent, srid: own }] = await query(this.queries.info);
+        const [{ etag }] = await query(this.queries.etag);
+        if (this.states.has(etag)) return this.states.get(etag);
+        if (query.learns) throw new Unknown(this);
+        const [{ name, stats, attributes, labels, extent, srid: own }] = await query(this.queries.info, [], { isLong: true });
         const lower = extent.slice(0, this.dimension), upper = extent.slice(3, 3 + this.dimension);
         const map = this.map ?? this.place(own, lower, upper);
         const levels = this.page === "plane" ? await levelsOf(query) : null;
         if (lower[0] !== null) this.map = map; // a mesh without a simplex has no place yet
-        this.known = { etag, name, kind: this.kind, dimension: this.dimension, ...stats, attributes, labels: labels ?? [], levels, lower, upper, ...map, system: own,
+        const known = { etag, name, kind: this.kind, dimension: this.dimension, ...stats, attributes, labels: labels ?? [], levels, lower, upper, ...map, system: own,
             ...(map.srid && this.options.baseMap && { baseMap: this.options.baseMap, credit: this.options.credit }),
             ...(!this.options.mesh && { isOneOfMany: true }),
             edit: Boolean(this.options.edit && stats.changeable) };
-        return this.known;
+        this.states.set(etag, known);
+        if (this.states.size > mostStates) this.states.delete(this.states.keys().next().value);
+        return known;
+    }
+
+    /** Reads what describe() needs of the state that is saved: once, however many wait, and to the end even if they leave. */
+    async learn(signal) {
+        this.learning ??= this.database.alone((query) => this.describe(this.about(query))).finally(() => { this.learning = null; });
+        this.learning.catch(() => {}); // all may have left
+        await Promise.race([this.learning, left(signal)]);
     }
 
     /** Where the mesh is on the map. It stays there when the mesh grows: pages that are open know of no other map.
@@ -59,6 +93,13 @@ export class Mesh {
         return { srid, world: srid ? null : [(lower[0] + upper[0] - side) / 2, (lower[1] + upper[1] - side) / 2, side] };
     }
 }
+
+/** Fails when the client of a request goes away. */
+const left = (signal) => new Promise((_, reject) => {
+    const leave = () => reject(new Refused(499, "the client went away"));
+    if (signal.aborted) leave();
+    signal.addEventListener("abort", leave, { once: true });
+});
 
 /** The meshes that a server may show: all that the role may read. */
 export class Meshes {

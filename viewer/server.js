@@ -8,7 +8,7 @@ import { connection } from "./conninfo.js";
 import { Database } from "./database.js";
 import { explain, Refused } from "./errors.js";
 import { layer, nothing, terrain } from "./globe.js";
-import { mapped, Mesh, Meshes } from "./mesh.js";
+import { knowing, mapped, Mesh, Meshes } from "./mesh.js";
 import { betweenReads, change, Parameters, picture, placeOfTile, readsOf, tile } from "./requests.js";
 
 const usage = `usage: viewer/serve [--mesh NAME] [-d CONNINFO] [options]     (or abacus-viewer, of Debian's package)
@@ -71,7 +71,7 @@ const json = (response, value, status = 200) => send(response, status, "applicat
 /** A picture or a tile whose statement is `make(known)`, or `otherwise` where that is NULL; 304 if the client has it. Of another mesh it is drawn on the map of `onto`. */
 async function sendPicture(request, response, url, { mesh, onto }, reading, make, { type = "image/png", otherwise } = {}) {
     const { etag, bytes } = await reading(async (query, all) => {
-        const known = onto ? placed(await mesh.describe(query), await onto.describe(onto.about(all))) : await mesh.describe(query);
+        const known = onto ? placed(await mesh.describe(query), await onto.describe(onto.about(all, query.learns))) : await mesh.describe(query);
         const drawn = JSON.stringify([known.srid, known.world, url.search]);
         const etag = `"${known.etag}-${Buffer.from(drawn).toString("base64url")}"`;
         if (request.headers["if-none-match"] === etag) return { etag };
@@ -193,7 +193,8 @@ function handler(places, options, hosts) {
             if (!mesh && path === "/api/meshes") return json(response, await places.meshes.list(gone.signal));
             if (!mesh) return await sendFile(response, path, "list");
             const of = url.searchParams.get("of"), what = of === null ? { mesh } : { mesh: await places.other(of, gone.signal), onto: mesh };
-            const reading = (task) => mesh.database.read(token, (query) => task(what.mesh.about(query), query), gone.signal);
+            const attempt = (task, learns) => mesh.database.read(token, (query) => task(what.mesh.about(query, learns), query), gone.signal);
+            const reading = (task) => (mesh.database.isEditing(token) ? attempt(task) : knowing((learns) => attempt(task, learns), gone.signal));
             if (path.startsWith("/tiles/")) return await sendTile(request, response, url, path, what, reading);
             if (path.startsWith("/globe/")) return await sendGlobe(request, response, url, path, mesh, reading);
             if (path.startsWith("/pictures/")) return await sendDrawing(request, response, url, path, what.mesh, reading);

@@ -8,6 +8,27 @@ setUp();
 
 const located = (place) => psql(`SELECT v0, v1, v2 FROM abacus_locate('terrain', ${place})`).replaceAll("|", " ");
 
+for (const [name, paths] of [["terrain", ["info", "hull"]], ["rock", ["info"]]])
+    test(`the page of ${name} says that the mesh is being read, and why it cannot be shown`, async () => {
+        await page.route("**/api/info?", async (route) => {
+            await new Promise((resolve) => setTimeout(resolve, 2500));
+            return route.continue();
+        });
+        await page.goto(servers[name].origin);
+        await says(/The mesh is being read/);
+        await page.waitForSelector("#view[data-ready=true]");
+        assert.doesNotMatch(await answer(), /being read/);
+        refuses(/504|took too long/);
+        await page.unroute("**/api/info?");
+        for (const path of paths) {
+            const address = `**/api/${path}?*`;
+            await page.route(address, (route) => route.fulfill({ status: 504, contentType: "application/json", body: '{"error":"the query took too long"}' }));
+            await page.goto(servers[name].origin);
+            await says(/the query took too long\. Reload the page to try again\./);
+            await page.unroute(address);
+        }
+    });
+
 test("a click shows the triangle, its circle, neighbours and values", async () => {
     await open("terrain");
     for (let i = 0; i < 4; ++i) await page.getByRole("button", { name: "Zoom in" }).click();

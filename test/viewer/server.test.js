@@ -341,6 +341,25 @@ test("a statement has a limit on its time", async () => {
     }
 });
 
+test("a mesh whose points take longer to read than a statement may is read once, for all who ask", async (t) => {
+    psql("SELECT abacus_triangulate('fields', 'SELECT i * 1000 + j, i + sin(j) / 4, j + cos(i) / 4, i * j AS height FROM generate_series(0, 499) AS i, generate_series(0, 499) AS j')");
+    const took = (statement) => {
+        const from = performance.now();
+        psql(statement);
+        return performance.now() - from;
+    };
+    const server = await serve("fields", { timeout: took("SELECT abacus_attributes('fields')") / 2000 });
+    const read = t.mock.method(Database.prototype, "alone");
+    try {
+        const answers = await Promise.all(Array.from({ length: 6 }, () => server.get("/api/info")));
+        for (const { status, body } of answers) assert.deepEqual([status, body.attributes], [200, [{ name: "height", least: 0, greatest: 499 * 499 }]]);
+        assert.equal(read.mock.callCount(), 1);
+    } finally {
+        await server.stop();
+        psql("DROP TABLE fields CASCADE");
+    }
+});
+
 test("connections that are gone are replaced", async () => {
     psql("SELECT pg_terminate_backend(pid) FROM pg_stat_activity WHERE application_name = 'abacus viewer'");
     await eventually(async () => (await plane.get("/api/locate?x=400817&y=5200740")).status === 200, "an answer");

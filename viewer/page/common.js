@@ -17,6 +17,21 @@ export async function answering(task) {
     }
 }
 
+const patience = 1500; // ms
+
+/** What the page cannot do without. It says so if this takes long, and what went wrong if it fails: then the page stops here. */
+export async function essential(task) {
+    const timer = setTimeout(() => say("The mesh is being read. The first time this takes a while if it is large."), patience);
+    try {
+        return await task();
+    } catch (error) {
+        say(`${error.message} Reload the page to try again.`, "error");
+        throw error;
+    } finally {
+        clearTimeout(timer);
+    }
+}
+
 /** A sentence goes to the line at the bottom, what is longer to the panel, which opens. */
 export function say(content, kind = "") {
     const isLine = typeof content === "string";

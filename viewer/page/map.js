@@ -1,6 +1,6 @@
 // The map of a mesh in the plane, and what of it the other parts of the page use.
 import * as maplibre from "maplibre-gl";
-import { element, mention } from "./common.js";
+import { element, essential, mention } from "./common.js";
 import { comparison } from "./comparison.js";
 import { Intervals } from "./contours.js";
 import { Coordinates } from "./coordinates.js";
@@ -14,7 +14,7 @@ import { styleOf } from "./style.js";
 
 maplibre.setWorkerUrl("/assets/maplibre-gl-worker.mjs");
 
-export let mesh = await ask("info");
+export let mesh = await essential(() => ask("info"));
 export const coordinates = new Coordinates(mesh);
 export const isEmpty = () => mesh.lower[0] === null;
 

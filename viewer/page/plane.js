@@ -1,7 +1,7 @@
 // The page of a mesh in the plane: its tools and settings.
 import * as maplibre from "maplibre-gl";
 import { setUpChart } from "./chart.js";
-import { answering, counted, element, openPanel, say, setUpPanels, tool } from "./common.js";
+import { answering, counted, element, essential, openPanel, say, setUpPanels, tool } from "./common.js";
 import { setUpComparison } from "./compare.js";
 import { comparison } from "./comparison.js";
 import { clearLines, drawing } from "./drawing.js";
@@ -170,11 +170,12 @@ document.title = `${mesh.name} – Abacus`;
 chooseAttribute();
 if (mesh.edit) setUpEditing(async () => (forget(), refresh()), markChanges);
 if (!map.isStyleLoaded()) await map.once("style.load");
-await refresh();
-await Promise.all([setUpFixed(), setUpRegions(), setUpComparison(changed)]);
+await essential(refresh);
+await Promise.all([setUpFixed(), setUpRegions()]);
 drawScale(map, coordinates);
 if (location.hash === "#3d" && attribute()) element("relief").click();
 say(mesh.lower[0] === null ? "The mesh has no triangles yet." : first[tool()]);
+await answering(() => setUpComparison(changed));
 map.on("idle", () => element("view").setAttribute("data-ready", "true"));
 map.on("dataloading", () => element("view").removeAttribute("data-ready"));
 map.triggerRepaint();

@@ -2,11 +2,11 @@
 import * as three from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { mergeVertices } from "three/examples/jsm/utils/BufferGeometryUtils.js";
-import { element, made } from "./common.js";
+import { element, essential, made } from "./common.js";
 import { plain } from "./numbers.js";
 import { ask } from "./requests.js";
 
-export let mesh = await ask("info");
+export let mesh = await essential(() => ask("info"));
 export const reread = async () => { mesh = await ask("info"); };
 export const isEmpty = mesh.lower[0] === null;
 export const isFlat = mesh.dimension === 2;

@@ -9,7 +9,7 @@ setUp(async () => {
     psql(`SET client_min_messages = warning; DROP TABLE IF EXISTS millions CASCADE;
         SELECT abacus_triangulate('millions', 'SELECT i::bigint * ${rows} + j AS id, 400000 + 10 * i + (i * 7919 + j * 104729) % 7 AS x, 5200000 + 10 * j + (i * 31 + j * 17) % 7 AS y,
             900 + 300 * sin(i / 90.0) * cos(j / 110.0) + 20 * sin(i / 7.0) AS height FROM generate_series(0, ${columns - 1}) AS i, generate_series(0, ${rows - 1}) AS j')`, 1_200_000);
-    return { millions: await serve("millions", { edit: true }) };
+    return { millions: await serve("millions", { edit: true, timeout: 300 }) };
 });
 
 test("14 million points: the whole, a part, a triangle, a profile, a change", async () => {
