@@ -146,3 +146,10 @@ CALL abacus_thin_build('thin_line', 'thin_new', 1);
 CALL abacus_thin_build('thin_solid', 'thin_new', 1, keep => 'SELECT 1.5');
 SELECT count(*) FROM pg_class WHERE relname LIKE 'thin_new%';
 DROP TABLE thin_ground, thin_mesh, thin_solid, thin_plain, thin_empty, thin_line;
+-- few points fit the memory: the temporary files of the last step end with it
+CREATE TABLE thin_points AS SELECT i AS id, (i * 0.7548776662466927) % 1 AS x, (i * 0.5698402909980532) % 1 AS y, sin(i) AS h FROM generate_series(1, 20000) AS i;
+SELECT abacus_triangulate('thin_rough', 'TABLE thin_points');
+SET maintenance_work_mem = '1MB';
+SELECT abacus_thin('thin_rough', 'thin_smooth', 0.3) > 0 AS thinned;
+RESET maintenance_work_mem;
+DROP TABLE thin_rough, thin_smooth, thin_points;

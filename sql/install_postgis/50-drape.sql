@@ -19,7 +19,7 @@ RETURNS boolean
 AS 'MODULE_PATHNAME', 'abacus_sql_is_polygon'
 LANGUAGE C STABLE STRICT PARALLEL SAFE;
 COMMENT ON FUNCTION _abacus_is_polygon(text) IS
-    'internal: whether a text is a geometry as WKT, EWKT or hexadecimal EWKB, and not the name of a region';
+    'internal: whether a text is a geometry as WKT, EWKT or hexadecimal EWKB, and not the name of a region; an error if it is no valid polygon';
 
 CREATE FUNCTION _abacus_part_within(area geometry, within text)
 RETURNS geometry
@@ -64,4 +64,4 @@ BEGIN ATOMIC
     WHERE p.whole OR NOT ST_IsEmpty(p.part);
 END;
 COMMENT ON FUNCTION abacus_clip(regclass, geometry, text, double precision, text) IS
-    'the parts of the triangles of a mesh in the plane that lie within polygons. Triangles wholly inside stay as they are; others are cut at the border, with an attribute as z. within is the name of a region of the mesh, or a polygon as WKT, EWKT or hexadecimal EWKB; all else is as outside of the mesh. Units: max_edge in those of the coordinates. Errors: 22023 no polygon, another SRID, a mesh of dimension 3; 42703 no such attribute; 42704 no such region';
+    'the parts of the triangles of a mesh in the plane that lie within polygons. Triangles wholly inside stay as they are; others are cut at the border, with an attribute as z. within is the name of a region of the mesh, or a polygon as WKT, EWKT or hexadecimal EWKB; all else is as outside of the mesh. Units: max_edge in those of the coordinates. Errors: 22023 no valid polygon, another SRID, a mesh of dimension 3; 42703 no such attribute; 42704 no such region';

@@ -44,7 +44,14 @@ void Thinning<D>::add(const Source &source, const std::uint64_t *vertex, Stage<D
     stage.add(record_.data(), 1);
 }
 
+/// Its files end with it.
+template <int D> void Thinning<D>::forget_chosen() {
+    if (chosen_) chosen_->close();
+    chosen_.reset();
+}
+
 template <int D> void Thinning<D>::begin_to_choose() {
+    forget_chosen();
     chosen_.emplace(host_, chosen_head + stride_, chosen_head, options_.sort_bytes / 2);
 }
 
@@ -97,7 +104,7 @@ template <int D> void Thinning<D>::inserted(const abacus_facts &facts) {
             });
         }
     }
-    chosen_.reset();
+    forget_chosen();
 }
 
 // ---- Steps -------------------------------------------------------------------------------
@@ -352,7 +359,7 @@ template <int D>
 typename Thinning<D>::Greatest Thinning<D>::greatest(const Host &source_host,
                                                      const abacus_facts &source,
                                                      const abacus_facts &facts) {
-    chosen_.reset();
+    forget_chosen();
     done_.reset();
     due_.fill();
     const double error =

@@ -75,6 +75,7 @@ private:
     /// Whether an id is to be kept; notes that it is known.
     bool is_kept_id(std::int64_t id);
 
+    void forget_chosen();
     void begin_to_choose();
     /// Chooses a vertex; returns the words of its candidate, whose head is not set.
     std::uint64_t *choose(const std::uint64_t *vertex, double error);

@@ -218,6 +218,14 @@ SELECT is((SELECT count(*) FROM abacus_clip('terrain', ST_MakeEnvelope(9000, 900
 SELECT is((SELECT count(*) FROM abacus_clip('terrain', NULL)), 0::bigint, 'nor has NULL');
 SELECT throws_ok($$ SELECT * FROM abacus_clip('terrain', 'SRID=2154;LINESTRING(0 0, 1 1)') $$, '22023', 'the geometry is a LineString, not a Polygon or MultiPolygon', 'a line is no area');
 SELECT throws_ok($$ SELECT * FROM abacus_clip('terrain', ST_MakeEnvelope(0, 0, 1, 1, 4326)) $$, '22023', 'the geometry has SRID 4326, but the mesh has SRID 2154', 'another SRID');
+SELECT throws_ok(format('SELECT * FROM abacus_clip(%L, %L)', 'terrain', 'SRID=2154;' || area), '22023', 'area is not a polygon that can be used', 'invalid: ' || area)
+    FROM (VALUES ('POLYGON((0 0, 5 5, 0 5, 5 0, 0 0))'), ('POLYGON Z((0 0 1, 5 5 1, 0 5 1, 5 0 1, 0 0 1))'), ('POLYGON M((0 0 1, 5 5 1, 0 5 1, 5 0 1, 0 0 1))'),
+        ('MULTIPOLYGON(((1 1, 50 1, 50 50, 1 1)), ((20 20, 90 60, 90 90, 20 20)))'), ('POLYGON((1 1, 20 1, 20 NaN, 1 1))')) AS v(area);
+SELECT throws_ok(format('SELECT * FROM abacus_clip(%L, ST_MakeEnvelope(1, 1, 20, 20, 2154), within => %L)', 'terrain', within), '22023', 'within is not a polygon that can be used', 'invalid: ' || within)
+    FROM (VALUES ('POLYGON((0 0, 5 5, 0 5, 5 0, 0 0))'), ('POLYGON((1 1, 20 1, 20 20, 1 20))'), ('POINT(1 1)')) AS v(within);
+SELECT ok((SELECT count(*) FROM abacus_clip('terrain', ST_Force4D(ST_MakeEnvelope(1, 1, 20, 20, 2154)))) > 0, 'an area may have z and m');
+SELECT throws_ok($$ SELECT * FROM abacus_edges_geom('terrain', 'SRID=2154;LINESTRING(0 0, NaN 5)'::geometry) $$, '22023', 'a coordinate of the geometry is not finite', 'bounds are finite');
+SELECT throws_ok($$ SELECT * FROM abacus_profile_geom('terrain', 'SRID=2154;LINESTRING(0 0, NaN 5)'::geometry) $$, '22023', 'a coordinate of the geometry is not finite', 'and so is a path');
 
 -- ---- In space --------------------------------------------------------------
 

@@ -6,6 +6,7 @@
 #include <abacus/shapes.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 

@@ -24,19 +24,20 @@ area_text_is(const char *text)
 	return geometry_text(text) != NO_GEOMETRY;
 }
 
+/* `what` names the argument. */
 pg_noreturn static void
-refuse(const char *detail, const char *hint)
+refuse(const char *what, const char *detail, const char *hint)
 {
 	CHECK_FOR_INTERRUPTS();		/* which also stop GEOS */
 	ereport(ERROR,
 			(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
-			 errmsg("within is not a polygon that can be used"),
+			 errmsg("%s is not a polygon that can be used", what),
 			 errdetail_internal("%s", detail),
 			 errhint("%s", hint)));
 }
 
 static void
-require_valid(Geos *geos, const GEOSGeometry *geometry)
+require_valid(Geos *geos, const char *what, const GEOSGeometry *geometry)
 {
 	if (GEOSisValid_r(geos->handle, geometry) != 1)
 	{
@@ -44,7 +45,7 @@ require_valid(Geos *geos, const GEOSGeometry *geometry)
 		char	   *detail = reason == NULL ? geos_message(geos) : pstrdup(reason);
 
 		GEOSFree_r(geos->handle, reason);
-		refuse(detail, "Make it valid with ST_MakeValid.");
+		refuse(what, detail, "Make it valid with ST_MakeValid.");
 	}
 }
 
@@ -90,9 +91,9 @@ take_rings(Geos *geos, const GEOSGeometry *geometry, AreaText *area)
 	}
 }
 
-/* The geometry of a text for which area_text_is() holds; an error if it cannot be read. */
+/* The geometry of a text for which area_text_is() holds; an error, which names `what`, if it cannot be read. */
 GEOSGeometry *
-area_text_geometry(Geos *geos, const char *text)
+area_text_geometry(Geos *geos, const char *what, const char *text)
 {
 	const char *whole = text;
 	const char *other = geometry_text_other(whole);
@@ -101,18 +102,18 @@ area_text_geometry(Geos *geos, const char *text)
 	GEOSGeometry *geometry;
 
 	if (other != NULL)
-		refuse(psprintf("It is a %s.", other), strstr(other, "Curve") != NULL
+		refuse(what, psprintf("It is a %s.", other), strstr(other, "Curve") != NULL
 			   ? "Make it a polygon with ST_CurveToLine."
 			   : "Give the name of a region, a Polygon or a MultiPolygon.");
 	text = geometry_text_behind_srid(whole, &srid);
 	if (geometry_text(whole) == GEOMETRY_WKT && (strcasestr(text, "nan") != NULL || strcasestr(text, "inf") != NULL))
-		refuse("A coordinate is not a finite number.", "Give finite coordinates.");
+		refuse(what, "A coordinate is not a finite number.", "Give finite coordinates.");
 	excess = geometry_text_excess(whole);
 	if (*excess != '\0')			/* which not all versions of GEOS find */
-		refuse(psprintf("It ends before \"%s\".", text_begin(excess)), "Give several polygons as one MultiPolygon.");
+		refuse(what, psprintf("It ends before \"%s\".", text_begin(excess)), "Give several polygons as one MultiPolygon.");
 	geometry = geometry_text(whole) == GEOMETRY_HEX ? geos_read_hex(geos, text) : geos_read_text(geos, text);
 	if (geometry == NULL)
-		refuse(geos_message(geos), "Give the name of a region, or a polygon as WKT, EWKT or hexadecimal EWKB.");
+		refuse(what, geos_message(geos), "Give the name of a region, or a polygon as WKT, EWKT or hexadecimal EWKB.");
 	if (srid != 0)
 		GEOSSetSRID_r(geos->handle, geometry, srid);
 	return geometry;
@@ -120,7 +121,7 @@ area_text_geometry(Geos *geos, const char *text)
 
 /* A text for which area_text_is() holds; an error unless it is a valid polygon. */
 AreaText
-area_text_read(const char *text)
+area_text_read(const char *what, const char *text)
 {
 	AreaText	area = {0};
 	Geos		geos;
@@ -128,10 +129,10 @@ area_text_read(const char *text)
 	geos_begin(&geos);
 	PG_TRY();
 	{
-		GEOSGeometry *geometry = area_text_geometry(&geos, text);
+		GEOSGeometry *geometry = area_text_geometry(&geos, what, text);
 
 		area.srid = GEOSGetSRID_r(geos.handle, geometry);
-		require_valid(&geos, geometry);
+		require_valid(&geos, what, geometry);
 		take_rings(&geos, geometry, &area);
 	}
 	PG_FINALLY();

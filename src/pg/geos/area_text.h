@@ -16,7 +16,7 @@ typedef struct AreaText
 struct Geos;
 
 extern bool area_text_is(const char *text);
-extern struct GEOSGeom_t *area_text_geometry(struct Geos *geos, const char *text);
-extern AreaText area_text_read(const char *text);
+extern struct GEOSGeom_t *area_text_geometry(struct Geos *geos, const char *what, const char *text);
+extern AreaText area_text_read(const char *what, const char *text);
 
 #endif

@@ -170,7 +170,7 @@ clip_rings(const RingSet *given, const char *polygon, RingSet *clipped)
 	PG_TRY();
 	{
 		GEOSGeometry *common = geos_keep(&geos, GEOSIntersection_r(geos.handle, area_of(&geos, given),
-																   area_text_geometry(&geos, polygon)));
+																   area_text_geometry(&geos, "within", polygon)));
 
 		geos_require(&geos, common != NULL && GEOSNormalize_r(geos.handle, common) == 0);
 		add_polygons(&geos, common, clipped);

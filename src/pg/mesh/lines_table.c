@@ -100,7 +100,7 @@ lines_table_require(Relation mesh, MeshAccess access)
 		ereport(ERROR,
 				(errcode(ERRCODE_UNDEFINED_TABLE),
 				 errmsg("mesh \"%s\" has lines, but no table of lines", RelationGetRelationName(mesh)),
-				 errdetail("There is no table \"%s" LINES_TABLE_SUFFIX "\" of type %s beside it.",
+				 errdetail("There is no table \"%s" LINES_TABLE_SUFFIX "\" of type %s beside it that has its owner.",
 						   RelationGetRelationName(mesh), LINE_POINT_TYPE),
 				 errhint("After a restore, give the table of lines that name; if it is lost, "
 						 "restore it from a backup.")));

@@ -19,6 +19,7 @@
 #include "access/genam.h"
 #include "access/relation.h"
 #include "access/table.h"
+#include "access/xact.h"
 #include "catalog/dependency.h"
 #include "catalog/indexing.h"
 #include "catalog/objectaddress.h"
@@ -128,10 +129,16 @@ mesh_is_sharded(Oid relid)
 void
 mesh_require_sharded(Oid relid)
 {
+	char	   *name = get_rel_name(relid);
+
+	if (name == NULL)
+		ereport(ERROR,
+				(errcode(ERRCODE_UNDEFINED_TABLE),
+				 errmsg("mesh with OID %u does not exist", relid)));
 	if (!mesh_is_sharded(relid))
 		ereport(ERROR,
 				(errcode(ERRCODE_WRONG_OBJECT_TYPE),
-				 errmsg("\"%s\" is not a mesh over several servers", get_rel_name(relid)),
+				 errmsg("\"%s\" is not a mesh over several servers", name),
 				 errhint("Make one with abacus_shard_create().")));
 }
 
@@ -275,28 +282,62 @@ find_named_table(Oid mesh, const SideTable *side)
 	return relid;
 }
 
-/* The table of a mesh, unlocked and unchecked, and whether it is bound; InvalidOid if there is none. */
+/* The owner of a table; InvalidOid if it is gone. */
 static Oid
-find_side_table(Oid mesh, const SideTable *side, bool *bound)
+owner_of(Oid relid)
+{
+	HeapTuple	tuple = SearchSysCache1(RELOID, ObjectIdGetDatum(relid));
+	Oid			owner;
+
+	if (!HeapTupleIsValid(tuple))
+		return InvalidOid;
+	owner = ((Form_pg_class) GETSTRUCT(tuple))->relowner;
+	ReleaseSysCache(tuple);
+	return owner;
+}
+
+/*
+ * The vertex table of a mesh, unlocked and unchecked, and whether it is bound; InvalidOid if there is
+ * none.
+ */
+static Oid
+find_vertex_table(Oid mesh, bool *bound)
+{
+	Oid			relid = find_bound_table(RelationRelationId, mesh, false, is_vertex_table);
+
+	*bound = OidIsValid(relid);
+	return *bound ? relid : find_named_table(mesh, &vertex_side);
+}
+
+/*
+ * The same for a table of rows. Only that of a restored mesh is found by its name, and all tables of a
+ * mesh are bound at once: so once the vertex table is bound, a table of that name belongs to something
+ * else. So does a table of another owner: its triggers would run as the one who changes the mesh.
+ */
+static Oid
+find_rows_table(Oid mesh, const SideTable *side, bool *bound)
 {
 	Oid			relid = find_bound_table(RelationRelationId, mesh, false, side->is);
 
 	*bound = OidIsValid(relid);
-	return *bound ? relid : find_named_table(mesh, side);
+	if (*bound || OidIsValid(find_bound_table(RelationRelationId, mesh, false, is_vertex_table)))
+		return relid;
+	relid = find_named_table(mesh, side);
+	return OidIsValid(relid) && owner_of(relid) == owner_of(mesh) ? relid : InvalidOid;
 }
 
 /* The vertex table of a mesh, unlocked and unchecked; InvalidOid if there is none. */
 Oid
 mesh_find_vertex_table(Oid mesh)
 {
-	return find_side_table(mesh, &vertex_side, &(bool) {false});
+	return find_vertex_table(mesh, &(bool) {false});
 }
 
 /* The same for a table of rows. */
 Oid
 mesh_find_rows_table(Oid mesh, SideRows rows)
 {
-	return find_side_table(mesh, &row_sides[rows], &(bool) {false});
+	return find_rows_table(mesh, &row_sides[rows], &(bool) {false});
 }
 
 /* The mesh whose simplex table or vertex table this is; InvalidOid if none. */
@@ -322,16 +363,12 @@ mesh_of_table(Oid relid)
 	return is_simplex_table(mesh) && mesh_find_vertex_table(mesh) == relid ? mesh : InvalidOid;
 }
 
-/* Opens such a table of the mesh under the lock that the access needs; NULL if there is none. */
+/* Opens such a table under the lock that the access needs; NULL if there is none. */
 static Relation
-open_side_table(Relation mesh, const SideTable *side, MeshAccess access, bool *bound)
+open_side_table(Oid relid, MeshAccess access)
 {
-	Oid			relid = find_side_table(RelationGetRelid(mesh), side, bound);
-
-	if (!OidIsValid(relid))
-		return NULL;
 	/* it may be dropped while we wait for the lock */
-	return try_relation_open(relid, access == MESH_READ ? AccessShareLock : RowExclusiveLock);
+	return OidIsValid(relid) ? try_relation_open(relid, access == MESH_READ ? AccessShareLock : RowExclusiveLock) : NULL;
 }
 
 /* Whether a writer should bind a table that is not bound: he must own both. */
@@ -351,7 +388,7 @@ mesh_rows_table(Relation mesh, SideRows rows, MeshAccess access)
 {
 	const SideTable *side = &row_sides[rows];
 	bool		bound;
-	Relation	rel = open_side_table(mesh, side, access, &bound);
+	Relation	rel = open_side_table(find_rows_table(RelationGetRelid(mesh), side, &bound), access);
 	Oid			relid;
 
 	if (rel == NULL)
@@ -369,7 +406,7 @@ Oid
 mesh_vertex_table(Relation mesh, MeshAccess access)
 {
 	bool		bound;
-	Relation	rel = open_side_table(mesh, &vertex_side, access, &bound);
+	Relation	rel = open_side_table(find_vertex_table(RelationGetRelid(mesh), &bound), access);
 	Oid			relid;
 
 	if (rel == NULL)
@@ -384,9 +421,10 @@ mesh_vertex_table(Relation mesh, MeshAccess access)
 	relid = RelationGetRelid(rel);
 	if (!bound && may_bind(mesh, relid, access))
 	{
-		mesh_bind_table(RelationGetRelid(mesh), relid);
-		for (int i = 0; i < lengthof(row_sides); i++)
+		for (int i = 0; i < lengthof(row_sides); i++) /* these first: see find_rows_table() */
 			(void) mesh_rows_table(mesh, (SideRows) i, access);
+		mesh_bind_table(RelationGetRelid(mesh), relid);
+		CommandCounterIncrement();	/* lets others see what is bound */
 		if (on_restored != NULL)
 			on_restored(mesh);
 	}

@@ -47,7 +47,7 @@ regions_table_require(Relation mesh, MeshAccess access)
 		ereport(ERROR,
 				(errcode(ERRCODE_UNDEFINED_TABLE),
 				 errmsg("mesh \"%s\" has regions, but no table of regions", RelationGetRelationName(mesh)),
-				 errdetail("There is no table \"%s" REGIONS_TABLE_SUFFIX "\" of type %s beside it.",
+				 errdetail("There is no table \"%s" REGIONS_TABLE_SUFFIX "\" of type %s beside it that has its owner.",
 						   RelationGetRelationName(mesh), REGION_PART_TYPE),
 				 errhint("After a restore, give the table of regions that name; if it is lost, "
 						 "restore it from a backup.")));

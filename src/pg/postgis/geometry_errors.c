@@ -33,6 +33,15 @@ geometry_refuse_kind(const char *what, uint32 kind, const char *wanted)
 			 is_collection ? errhint("Split the collection into its parts with ST_Dump.") : 0));
 }
 
+/* A coordinate is NaN or infinite. */
+void
+geometry_refuse_coordinate(const char *what)
+{
+	ereport(ERROR,
+			(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
+			 errmsg("a coordinate of %s is not finite", what)));
+}
+
 /* The geometry has another system; `wanted` is that of the whole, a mesh or an octree. */
 void
 geometry_refuse_srid(const char *what, int32 srid, int32 wanted, const char *whole)

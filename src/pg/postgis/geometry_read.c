@@ -4,6 +4,7 @@
 #include "postgres.h"
 
 #include "port/pg_bswap.h"
+#include "utils/builtins.h"
 
 #include "pg/port/port.h"
 #include "pg/postgis/geometry_errors.h"
@@ -52,6 +53,18 @@ geometry_bytes(const GeometryType *type, Datum geometry)
 
 	bytes.end = bytes.at + VARSIZE(sent) - VARHDRSZ;
 	return bytes;
+}
+
+/* The same in hexadecimal digits, as a text. */
+char *
+geometry_hex(const GeometryType *type, Datum geometry)
+{
+	GeometryBytes bytes = geometry_bytes(type, geometry);
+	size_t		size = (size_t) (bytes.end - bytes.at);
+	char	   *digits = MemoryContextAllocHuge(CurrentMemoryContext, 2 * size + 1);
+
+	digits[hex_encode((const char *) bytes.at, size, digits)] = '\0';
+	return digits;
 }
 
 /* Reads the head of a geometry. */

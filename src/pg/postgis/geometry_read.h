@@ -36,6 +36,7 @@ geometry_is_nowhere(const double *at)
 }
 
 extern GeometryBytes geometry_bytes(const GeometryType *type, Datum geometry);
+extern char *geometry_hex(const GeometryType *type, Datum geometry);
 extern GeometryHead geometry_head(GeometryBytes *bytes);
 extern uint32 geometry_count(GeometryBytes *bytes);
 extern double geometry_number(GeometryBytes *bytes);

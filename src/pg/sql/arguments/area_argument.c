@@ -29,7 +29,7 @@ require_mesh(const abacus_form *form, const AreaText *area, const char *mesh)
 const abacus_area *
 area_open(const char *text, const abacus_form *form, const char *mesh, MemoryContext memory)
 {
-	AreaText	read = area_text_read(text);
+	AreaText	read = area_text_read("within", text);
 	Host	   *host;
 	abacus_area *area = NULL;
 

@@ -84,9 +84,7 @@ lift_over_mesh(const Drape *drape, Place *place)
 	double		value = NAN;
 
 	if (!isfinite(place->at[0]) || !isfinite(place->at[1]))
-		ereport(ERROR,
-				(errcode(ERRCODE_INVALID_PARAMETER_VALUE),
-				 errmsg("a coordinate of the geometry is not finite")));
+		geometry_refuse_coordinate("the geometry");
 	if (host_run(mesh->host, abacus_mesh_interpolate, mesh->mesh, &drape->how, place->at, &value) == ABACUS_END)
 		value = NAN;
 	host_release(mesh->host);

@@ -79,14 +79,16 @@ abacus_sql_geometry_corner(PG_FUNCTION_ARGS)
 	if (!array_contains_nulls(array))
 		memcpy(corner, geometry_numbers(array, ABACUS_MAX_DIMENSION, &(size_t) {0}), sizeof(corner));
 	for (uint32 i = 0; i < facts->form.dimension; i++)
-		if (isinf(corner[i]))
+		if (isnan(corner[i]))
+			geometry_refuse_coordinate("the geometry");
+		else if (isinf(corner[i]))
 			corner[i] = corner[i] < 0 ? -DBL_MAX : DBL_MAX;
 	PG_RETURN_DATUM(attribute_array(corner, (int) facts->form.dimension));
 }
 
 /*
- * _abacus_area(mesh regclass, area geometry) -> geometry: the same; an error unless it is polygons
- * in the mesh's system
+ * _abacus_area(mesh regclass, area geometry) -> geometry: the same; an error unless it is valid
+ * polygons in the mesh's system
  */
 Datum
 abacus_sql_geometry_area(PG_FUNCTION_ARGS)
@@ -99,14 +101,23 @@ abacus_sql_geometry_area(PG_FUNCTION_ARGS)
 	if (head.kind != GEOMETRY_POLYGON && head.kind != GEOMETRY_MULTIPOLYGON)
 		geometry_refuse_kind("the geometry", head.kind, "a Polygon or MultiPolygon");
 	geometry_check_srid(&facts->form, head.srid);
+	(void) area_text_read("area", geometry_hex(geometry_argument_type(fcinfo, 1), PG_GETARG_DATUM(1)));
 	PG_RETURN_DATUM(PG_GETARG_DATUM(1));
 }
 
-/* _abacus_is_polygon(within text) -> boolean: whether it is a geometry, and not the name of a region */
+/*
+ * _abacus_is_polygon(within text) -> boolean: whether it is a geometry, and not the name of a region;
+ * an error if the geometry is no valid polygon
+ */
 Datum
 abacus_sql_is_polygon(PG_FUNCTION_ARGS)
 {
-	PG_RETURN_BOOL(area_text_is(text_to_cstring(PG_GETARG_TEXT_PP(0))));
+	char	   *within = text_to_cstring(PG_GETARG_TEXT_PP(0));
+
+	if (!area_text_is(within))
+		PG_RETURN_BOOL(false);
+	(void) area_text_read("within", within);
+	PG_RETURN_BOOL(true);
 }
 
 /* _abacus_place(mesh regclass, point geometry) -> float8[]: its coordinates; NULL for an empty point */
@@ -149,6 +160,9 @@ abacus_sql_geometry_path(PG_FUNCTION_ARGS)
 		double		at[GEOMETRY_COORDINATES];
 
 		geometry_coordinates(&bytes, &head, at);
+		for (int k = 0; k < dimension; k++)
+			if (!isfinite(at[k]))
+				geometry_refuse_coordinate("the geometry");
 		memcpy(path + (Size) i * dimension, at, dimension * sizeof(double));
 	}
 	PG_RETURN_DATUM(attribute_array(path, (int) (count * dimension)));

@@ -1,0 +1,96 @@
+-- Tables with the names and types of those that belong to a mesh, but made by another role, or left by an earlier mesh: no part of it.
+BEGIN;
+SELECT no_plan();
+SET LOCAL client_min_messages = warning;
+
+CREATE ROLE pgtap_names_owner;
+CREATE ROLE pgtap_names_other;
+CREATE SCHEMA held;
+GRANT CREATE, USAGE ON SCHEMA held TO pgtap_names_owner, pgtap_names_other;
+CREATE TABLE held.point AS SELECT (25 * x + y)::bigint AS id, x::float8, y::float8, (x * y)::float8 AS h FROM generate_series(0, 24) AS x, generate_series(0, 24) AS y;
+GRANT SELECT ON held.point TO pgtap_names_owner;
+CREATE TABLE ran AS SELECT current_user AS as_user LIMIT 0;
+GRANT INSERT ON ran TO PUBLIC;
+
+-- prepared by a role that may make tables in the schema, with triggers
+SET ROLE pgtap_names_owner;
+SELECT abacus_triangulate('held.field', 'TABLE held.point');
+SELECT abacus_triangulate('held.lined', 'TABLE held.point');
+SELECT abacus_constrain('held.lined', 'VALUES (1, 1, 51), (1, 2, 451), (1, 3, 467), (1, 4, 67), (1, 5, 51)');
+SET ROLE pgtap_names_other;
+CREATE FUNCTION held.tell() RETURNS trigger LANGUAGE plpgsql AS $$ BEGIN INSERT INTO ran VALUES (current_user); RETURN new; END $$;
+CREATE TABLE held.field_lines OF abacus_line_point;
+CREATE TABLE held.lined_regions OF abacus_region_part;
+CREATE TABLE held.lined_level_1_lines OF abacus_line_point;
+CREATE TABLE held.thin_lines OF abacus_line_point;
+CREATE TABLE held.field_steps OF abacus_step_values PARTITION BY LIST (step);
+CREATE TABLE held.field_levels OF abacus_level;
+CREATE FUNCTION held.arm(name regclass) RETURNS void LANGUAGE plpgsql AS $$
+BEGIN
+	EXECUTE format('CREATE TRIGGER told BEFORE INSERT ON %s FOR EACH ROW EXECUTE FUNCTION held.tell()', name);
+	EXECUTE format('GRANT ALL ON %s TO PUBLIC', name);
+END $$;
+SELECT held.arm(c.oid::regclass) FROM pg_class AS c WHERE relnamespace = 'held'::regnamespace AND relowner = 'pgtap_names_other'::regrole AND relkind IN ('r', 'p');
+RESET ROLE;
+CREATE TABLE change AS SELECT * FROM (VALUES
+	($$SELECT abacus_constrain('held.field', 'VALUES (1, 1, 51), (1, 2, 451)')$$), ($$SELECT abacus_region('held.lined', 'VALUES (''farm'', 1)')$$),
+	($$SELECT * FROM abacus_levels('held.lined', '{3}')$$), ($$SELECT abacus_thin('held.lined', 'held.thin', 3)$$), ($$SELECT * FROM abacus_levels('held.field', '{3}')$$),
+	($$SELECT abacus_store('held.field', 1, 1, 0, 'SELECT id, x FROM abacus_share_vertices(''held.field'', 1, 0, 0)')$$)) AS c (sql);
+GRANT SELECT ON change TO pgtap_names_owner;
+SELECT throws_ok(sql, '42P07', NULL, 'a superuser: ' || sql) FROM change;
+SET ROLE pgtap_names_owner;
+SELECT throws_ok(sql, '42P07', NULL, 'the owner: ' || sql) FROM change;
+SELECT is_empty($$SELECT * FROM abacus_lines('held.field')$$, 'nor are their rows read');
+RESET ROLE;
+SELECT is_empty('TABLE ran', 'no trigger has run');
+DROP TABLE held.field_lines, held.lined_regions, held.lined_level_1_lines, held.thin_lines, held.field_steps, held.field_levels;
+SET ROLE pgtap_names_owner;
+SELECT lives_ok(sql, 'without them: ' || sql) FROM change;
+
+-- left by an earlier mesh of the same owner, of which a restored one has lost the tables: only their names connected them
+SELECT abacus_triangulate('held.bay', 'TABLE held.point');
+SELECT abacus_constrain('held.bay', 'VALUES (1, 1, 51), (1, 2, 451), (1, 3, 467), (1, 4, 67), (1, 5, 51)');
+SELECT abacus_region('held.bay', $$VALUES ('farm', 1)$$);
+SELECT abacus_levels('held.bay', '{3}');
+SELECT abacus_store('held.bay', 1, 1, 0, $$SELECT id, x FROM abacus_share_vertices('held.bay', 1, 0, 0)$$);
+RESET ROLE;
+CREATE FUNCTION pg_temp.forget(mesh regclass) RETURNS void LANGUAGE sql AS $$
+	DELETE FROM pg_depend WHERE classid = 'pg_class'::regclass AND refclassid = 'pg_class'::regclass AND refobjid = mesh AND deptype = 'a' $$;
+CREATE FUNCTION pg_temp.parts(mesh regclass) RETURNS text LANGUAGE sql AS $$
+	SELECT string_agg(objid::regclass::text, ' ' ORDER BY objid::regclass::text) FROM pg_depend
+	WHERE classid = 'pg_class'::regclass AND refclassid = 'pg_class'::regclass AND refobjid = mesh AND deptype = 'a' $$;
+SELECT pg_temp.parts('held.bay') AS parts \gset
+SELECT pg_temp.forget('held.bay');
+SELECT results_eq($$SELECT region, triangles > 0 FROM abacus_regions('held.bay')$$, $$VALUES ('farm', true)$$, 'restored: the tables are found by their names');
+SET ROLE pgtap_names_owner;
+SELECT abacus_set_srid('held.bay', abacus_srid('held.bay'));
+RESET ROLE;
+SELECT is(pg_temp.parts('held.bay'), :'parts', 'setting the SRID it has binds all tables');
+SELECT is_empty($$SELECT * FROM abacus_check('held.bay')$$, 'which are sound');
+SELECT pg_temp.forget('held.bay');
+SET ROLE pgtap_names_owner;
+DROP TABLE held.bay, held.bay_vertices;
+SELECT abacus_triangulate('held.bay', 'VALUES (1, 0, 0, 1), (2, 10, 0, 2), (3, 10, 10, 3), (4, 0, 10, 4), (5, 5, 5.5, 5)', '{h}');
+SELECT is_empty($$SELECT * FROM abacus_lines('held.bay')$$, 'a new mesh has no line of an earlier one');
+SELECT is_empty($$SELECT * FROM abacus_regions('held.bay')$$, 'nor a region');
+SELECT is_empty($$SELECT * FROM abacus_steps('held.bay')$$, 'nor a step');
+SELECT throws_ok($$SELECT abacus_level('held.bay', 10)$$, '55000', NULL, 'nor a level');
+SELECT throws_ok($$SELECT abacus_constrain('held.bay', 'VALUES (7, 1, 1), (7, 2, 5)')$$, '42P07', NULL, 'nor does it take the tables');
+SELECT is_empty($$SELECT * FROM abacus_check('held.bay')$$, 'it is sound');
+RESET ROLE;
+
+-- an octree
+SELECT abacus_octree_create('held.tree', 2, '{0,0}', '{1,1}', '{v}');
+SELECT pg_temp.forget('held.tree');
+SELECT abacus_set_srid('held.tree', abacus_srid('held.tree'));
+SELECT is(pg_temp.parts('held.tree'), 'held.tree_vertices', 'an octree is bound in the same way');
+
+-- a table of lines of a restored mesh that has another owner
+SELECT pg_temp.forget('held.lined');
+ALTER TABLE held.lined_lines OWNER TO pgtap_names_other;
+SELECT throws_ok($$SELECT * FROM abacus_lines('held.lined')$$, '42P01', NULL, 'a restored table of another owner is not the mesh''s');
+ALTER TABLE held.lined_lines OWNER TO pgtap_names_owner;
+SELECT is(count(*), 5::bigint, 'of the same owner it is') FROM abacus_lines('held.lined');
+
+SELECT * FROM finish();
+ROLLBACK;
