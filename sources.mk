@@ -293,6 +293,7 @@ CORE.capi_change += src/capi/octree_simplices.cpp
 
 PG_SOURCES += src/pg/abacus.c
 PG_SOURCES += src/pg/base/commits.c
+PG_SOURCES += src/pg/base/dependency.c
 PG_SOURCES += src/pg/base/extension_type.c
 PG_SOURCES += src/pg/base/float_array.c
 PG_SOURCES += src/pg/base/settings.c

@@ -16,15 +16,12 @@
  */
 #include "postgres.h"
 
-#include "access/genam.h"
 #include "access/relation.h"
 #include "access/table.h"
 #include "access/xact.h"
 #include "catalog/dependency.h"
-#include "catalog/indexing.h"
 #include "catalog/objectaddress.h"
 #include "catalog/pg_class.h"
-#include "catalog/pg_depend.h"
 #include "catalog/pg_trigger.h"
 #include "catalog/pg_type.h"
 #include "commands/extension.h"
@@ -32,11 +29,11 @@
 #include "storage/lmgr.h"
 #include "utils/acl.h"
 #include "utils/builtins.h"
-#include "utils/fmgroids.h"
 #include "utils/inval.h"
 #include "utils/lsyscache.h"
 #include "utils/syscache.h"
 
+#include "pg/base/dependency.h"
 #include "pg/mesh/mesh.h"
 #include "pg/mesh/mesh_access.h"
 #include "pg/port/port.h"
@@ -213,41 +210,6 @@ mesh_lock_for_session(Oid relid)
 	return id;
 }
 
-/*
- * The first table of the wanted kind that the object automatically depends on
- * (`dependent`), or that depends on it.
- */
-static Oid
-find_bound_table(Oid class, Oid object, bool dependent, bool (*wanted) (Oid))
-{
-	Relation	depend = table_open(DependRelationId, AccessShareLock);
-	ScanKeyData keys[2];
-	SysScanDesc scan;
-	HeapTuple	tuple;
-	Oid			found = InvalidOid;
-
-	ScanKeyInit(&keys[0], dependent ? Anum_pg_depend_classid : Anum_pg_depend_refclassid,
-				BTEqualStrategyNumber, F_OIDEQ, ObjectIdGetDatum(class));
-	ScanKeyInit(&keys[1], dependent ? Anum_pg_depend_objid : Anum_pg_depend_refobjid,
-				BTEqualStrategyNumber, F_OIDEQ, ObjectIdGetDatum(object));
-	scan = systable_beginscan(depend, dependent ? DependDependerIndexId : DependReferenceIndexId,
-							  true, NULL, 2, keys);
-	while (!OidIsValid(found) && HeapTupleIsValid(tuple = systable_getnext(scan)))
-	{
-		Form_pg_depend entry = (Form_pg_depend) GETSTRUCT(tuple);
-		Oid			other = dependent ? entry->refobjid : entry->objid;
-
-		if (entry->deptype == DEPENDENCY_AUTO &&
-			(dependent || entry->classid == RelationRelationId) &&
-			entry->refclassid == RelationRelationId && entry->objsubid == 0 &&
-			entry->refobjsubid == 0 && wanted(other))
-			found = other;
-	}
-	systable_endscan(scan);
-	table_close(depend, AccessShareLock);
-	return found;
-}
-
 /* A table beside that of the simplices. */
 typedef struct SideTable
 {
@@ -277,23 +239,9 @@ find_named_table(Oid mesh, const SideTable *side)
 	relid = get_relname_relid(psprintf("%s%s", name, side->suffix), get_rel_namespace(mesh));
 	if (OidIsValid(relid) &&
 		(!side->is(relid) ||
-		 OidIsValid(find_bound_table(RelationRelationId, relid, true, is_simplex_table))))
+		 OidIsValid(dependency_find(RelationRelationId, relid, true, is_simplex_table))))
 		relid = InvalidOid;
 	return relid;
-}
-
-/* The owner of a table; InvalidOid if it is gone. */
-static Oid
-owner_of(Oid relid)
-{
-	HeapTuple	tuple = SearchSysCache1(RELOID, ObjectIdGetDatum(relid));
-	Oid			owner;
-
-	if (!HeapTupleIsValid(tuple))
-		return InvalidOid;
-	owner = ((Form_pg_class) GETSTRUCT(tuple))->relowner;
-	ReleaseSysCache(tuple);
-	return owner;
 }
 
 /*
@@ -303,7 +251,7 @@ owner_of(Oid relid)
 static Oid
 find_vertex_table(Oid mesh, bool *bound)
 {
-	Oid			relid = find_bound_table(RelationRelationId, mesh, false, is_vertex_table);
+	Oid			relid = dependency_find(RelationRelationId, mesh, false, is_vertex_table);
 
 	*bound = OidIsValid(relid);
 	return *bound ? relid : find_named_table(mesh, &vertex_side);
@@ -317,13 +265,13 @@ find_vertex_table(Oid mesh, bool *bound)
 static Oid
 find_rows_table(Oid mesh, const SideTable *side, bool *bound)
 {
-	Oid			relid = find_bound_table(RelationRelationId, mesh, false, side->is);
+	Oid			relid = dependency_find(RelationRelationId, mesh, false, side->is);
 
 	*bound = OidIsValid(relid);
-	if (*bound || OidIsValid(find_bound_table(RelationRelationId, mesh, false, is_vertex_table)))
+	if (*bound || OidIsValid(dependency_find(RelationRelationId, mesh, false, is_vertex_table)))
 		return relid;
 	relid = find_named_table(mesh, side);
-	return OidIsValid(relid) && owner_of(relid) == owner_of(mesh) ? relid : InvalidOid;
+	return OidIsValid(relid) && mesh_table_owner(relid) == mesh_table_owner(mesh) ? relid : InvalidOid;
 }
 
 /* The vertex table of a mesh, unlocked and unchecked; InvalidOid if there is none. */
@@ -352,7 +300,7 @@ mesh_of_table(Oid relid)
 		return relid;
 	if (!is_vertex_table(relid))
 		return InvalidOid;
-	mesh = find_bound_table(RelationRelationId, relid, true, is_simplex_table);
+	mesh = dependency_find(RelationRelationId, relid, true, is_simplex_table);
 	if (OidIsValid(mesh))
 		return mesh;
 	name = get_rel_name(relid);
@@ -454,7 +402,7 @@ mesh_bind_table(Oid mesh, Oid table)
 Oid
 mesh_of_trigger(Oid trigger)
 {
-	return find_bound_table(TriggerRelationId, trigger, true, is_simplex_table);
+	return dependency_find(TriggerRelationId, trigger, true, is_simplex_table);
 }
 
 void
