@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace abacus {
 
@@ -50,8 +51,18 @@ template <int below, int above> bool SumOf<below, above>::operator<(const SumOf 
 }
 
 template <int below, int above> double SumOf<below, above>::value() const {
-    const ScaledNumber number = scaled();
-    return std::scalbn(number.value, number.exponent);
+    const auto rounded = [](const SumOf &sum) {
+        const ScaledNumber number = sum.scaled();
+        return std::scalbn(number.value, number.exponent);
+    };
+    const double value = rounded(*this);
+    constexpr double least = std::numeric_limits<double>::min();
+    if (below == 0 || std::fabs(value) > least) return value;
+    // A subnormal double would be rounded twice. The last bit of the least normal ones is the same.
+    const double lift = std::copysign(least, value);
+    SumOf lifted = *this;
+    lifted.add(lift);
+    return rounded(lifted) - lift;
 }
 
 template <int below, int above> ScaledNumber SumOf<below, above>::scaled() const {
@@ -74,6 +85,15 @@ template <int below, int above> ScaledNumber SumOf<below, above>::scaled() const
                                      [](std::int64_t digit) { return digit != 0; });
     const auto value = static_cast<double>(leading | static_cast<Wide>(is_rest));
     return {is_negative ? -value : value, static_cast<int>(last * digit_bits) - 1074 - below};
+}
+
+void add_product(WideSum &sum, double a, double b, int scale) {
+    int of_a = 0, of_b = 0;
+    a = std::frexp(a, &of_a);
+    b = std::frexp(b, &of_b);
+    const double product = a * b;
+    sum.add(product, of_a + of_b + scale);
+    sum.add(std::fma(a, b, -product), of_a + of_b + scale);
 }
 
 template class SumOf<0, 0>;

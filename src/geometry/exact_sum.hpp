@@ -9,17 +9,13 @@
 // of several doubles are summed that neither overflow nor underflow.
 #pragma once
 
+#include "geometry/scaled_number.hpp"
+
 #include <array>
 #include <bit>
 #include <cstdint>
 
 namespace abacus {
-
-/// A number of any size: value * 2^exponent.
-struct ScaledNumber {
-    double value;
-    int exponent;
-};
 
 /// Of doubles times powers of two, from 2^-below to 2^above.
 template <int below, int above> class SumOf {
@@ -50,7 +46,7 @@ public:
     void add(const SumOf &other);
     SumOf times(std::uint32_t factor) const;
     bool operator<(const SumOf &other) const;
-    bool is_zero() const { return value() == 0; }
+    bool is_zero() const { return scaled().value == 0; }
     /// The double nearest to the sum; infinite beyond all of them, or after an infinite summand.
     double value() const;
     /// The sum with the precision of a double, whatever its size.
@@ -75,6 +71,9 @@ private:
 using ExactSum = SumOf<0, 0>;
 /// Of products of up to five doubles.
 using WideSum = SumOf<5440, 5184>;
+
+/// Adds a * b * 2^scale without rounding, of finite doubles.
+void add_product(WideSum &sum, double a, double b, int scale = 0);
 
 extern template class SumOf<0, 0>;
 extern template class SumOf<5440, 5184>;

@@ -11,29 +11,68 @@
 #pragma once
 
 #include "geometry/linear_piece.hpp"
+#include "geometry/scaled_number.hpp"
 
 #include <array>
 #include <cmath>
+#include <tuple>
 
 namespace abacus {
 
 template <int D> using Sides = std::array<double, D + 1>;
 
-/// Area, or volume.
-template <int D> double measure(const Piece<D> &piece) {
-    std::array<Point<D>, D> edge;
+template <class Number>
+Number determinant(const std::array<Number, 2> &a, const std::array<Number, 2> &b) {
+    return a[0] * b[1] - a[1] * b[0];
+}
+template <class Number>
+Number determinant(const std::array<Number, 3> &a, const std::array<Number, 3> &b,
+                   const std::array<Number, 3> &c) {
+    return a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) +
+           a[2] * (b[0] * c[1] - b[1] * c[0]);
+}
+
+/// Whether doubles hold the determinant: no product overflows, or loses digits that count.
+inline bool is_in_range(const Point<2> &a, const Point<2> &b) {
+    const double permanent = std::fabs(a[0] * b[1]) + std::fabs(a[1] * b[0]);
+    return permanent > 1e-290 && std::isfinite(permanent);
+}
+inline bool is_in_range(const Point<3> &a, const Point<3> &b, const Point<3> &c) {
+    double permanent = 0, size = 0;
+    for (int i = 0; i < 3; ++i) {
+        const int j = (i + 1) % 3, k = (i + 2) % 3;
+        permanent += std::fabs(a[i]) * (std::fabs(b[j] * c[k]) + std::fabs(b[k] * c[j]));
+        size += std::fabs(a[i]);
+    }
+    return permanent > 1e-250 && permanent > 1e-290 * size && std::isfinite(permanent);
+}
+
+/// The edges from the first corner, by minus(a, b).
+template <int D, class Minus> auto edges_of(const Piece<D> &piece, Minus minus) {
+    std::array<std::array<decltype(minus(0.0, 0.0)), D>, D> edges;
     for (int i = 0; i < D; ++i)
         for (int axis = 0; axis < D; ++axis)
-            edge[i][axis] = piece.corner[i + 1][axis] - piece.corner[0][axis];
-    if constexpr (D == 2) {
-        return std::fabs(edge[0][0] * edge[1][1] - edge[0][1] * edge[1][0]) / 2;
-    } else {
-        const auto &[a, b, c] = edge;
-        return std::fabs(a[0] * (b[1] * c[2] - b[2] * c[1]) - a[1] * (b[0] * c[2] - b[2] * c[0]) +
-                         a[2] * (b[0] * c[1] - b[1] * c[0])) /
-               6;
-    }
+            edges[i][axis] = minus(piece.corner[i + 1][axis], piece.corner[0][axis]);
+    return edges;
 }
+
+/// Area, or volume, of any size.
+template <int D> ScaledNumber scaled_measure(const Piece<D> &piece) {
+    constexpr double factorial = D == 2 ? 2 : 6;
+    const auto edges = edges_of<D>(piece, [](double a, double b) { return a - b; });
+    if (std::apply([](const auto &...edge) { return is_in_range(edge...); }, edges)) [[likely]] {
+        const double value =
+            std::apply([](const auto &...edge) { return determinant<double>(edge...); }, edges);
+        return {std::fabs(value) / factorial, 0};
+    }
+    const ScaledNumber number =
+        std::apply([](const auto &...edge) { return determinant<ScaledNumber>(edge...); },
+                   edges_of<D>(piece, scaled_difference));
+    return {std::fabs(number.value) / factorial, number.exponent};
+}
+
+/// Area, or volume.
+template <int D> double measure(const Piece<D> &piece) { return rounded(scaled_measure(piece)); }
 
 /// Mean of its values.
 template <int D> double mean(const Piece<D> &piece) {
@@ -55,7 +94,9 @@ template <int D> struct Split {
     /// Sets corner `to` of a piece to where the function is 0 on the edge from kept[i] to left[j].
     void pierce(int i, int j, Piece<D> &target, int to) const {
         const int a = kept[i], b = left[j];
-        const double share = side[a] / (side[a] - side[b]);
+        const double whole = side[a] - side[b];
+        const double share =
+            std::isfinite(whole) ? side[a] / whole : side[a] / 2 / (side[a] / 2 - side[b] / 2);
         for (int axis = 0; axis < D; ++axis)
             target.corner[to][axis] =
                 std::lerp(piece.corner[a][axis], piece.corner[b][axis], share);
@@ -126,26 +167,34 @@ void clip_axis(const Piece<D> &piece, int axis, double bound, bool is_lower, Vis
     });
 }
 
-/// Area of the triangle between three points in space.
-inline double triangle_area(const Point<3> &a, const Point<3> &b, const Point<3> &c) {
-    const double ux = b[0] - a[0], uy = b[1] - a[1], uz = b[2] - a[2];
-    const double wx = c[0] - a[0], wy = c[1] - a[1], wz = c[2] - a[2];
-    const double x = uy * wz - uz * wy, y = uz * wx - ux * wz, z = ux * wy - uy * wx;
-    return std::sqrt(x * x + y * y + z * z) / 2;
+/// Area of the triangle between three points in space, of any size.
+inline ScaledNumber triangle_area(const Point<3> &a, const Point<3> &b, const Point<3> &c) {
+    const auto normal = [&](auto minus) {
+        const auto ux = minus(b[0], a[0]), uy = minus(b[1], a[1]), uz = minus(b[2], a[2]);
+        const auto wx = minus(c[0], a[0]), wy = minus(c[1], a[1]), wz = minus(c[2], a[2]);
+        return std::array{uy * wz - uz * wy, uz * wx - ux * wz, ux * wy - uy * wx};
+    };
+    const auto [x, y, z] = normal([](double p, double q) { return p - q; });
+    const double square = x * x + y * y + z * z;
+    if (square > 1e-250 && std::isfinite(square)) [[likely]]
+        return {std::sqrt(square) / 2, 0};
+    ScaledNumber area = std::apply(length, normal(scaled_difference));
+    --area.exponent;
+    return area;
 }
 
 /// Area of the section of a tetrahedron where a linear function is 0. A facet all in the section
 /// is one of the tetrahedron on whose other side the function is negative.
-inline double section_area(const Piece<3> &piece, const Sides<3> &side) {
+inline ScaledNumber section_area(const Piece<3> &piece, const Sides<3> &side) {
     const Split<3> split(piece, side);
-    if (split.count == 0 || split.count == 4) return 0;
+    if (split.count == 0 || split.count == 4) return {0, 0};
     Piece<3> cut; // its corners in order
     const int left = 4 - split.count;
     for (int n = 0; n < split.count * left; ++n) {
         const int i = n / left, j = n % left;
         split.pierce(i, i == 1 && left == 2 ? 1 - j : j, cut, n);
     }
-    const double area = triangle_area(cut.corner[0], cut.corner[1], cut.corner[2]);
+    const ScaledNumber area = triangle_area(cut.corner[0], cut.corner[1], cut.corner[2]);
     return split.count == 2 ? area + triangle_area(cut.corner[0], cut.corner[2], cut.corner[3])
                             : area;
 }

@@ -160,6 +160,26 @@ TEST(ContourRings, ATouchingPathIsTakenApart) {
     EXPECT_EQ(areas, (std::vector<double>{4, 4}));
 }
 
+/// Whether a ring has an area is exact, even if its area is no double.
+TEST(ContourRings, AtTheLimitsOfDoubles) {
+    constexpr double least = std::numeric_limits<double>::denorm_min();
+    MemoryHost store;
+    const Host host = store.host();
+    ContourRings rings(host);
+    const auto count = [&](const std::vector<Point<2>> &points) {
+        Arena<Point<2>> path(host);
+        for (const Point<2> &p : points) path.push_back(p);
+        int found = 0;
+        rings.each(path, [&](const Arena<Point<2>> &) { ++found; });
+        return found;
+    };
+    for (const double unit : {least, 0x1p-700, 1.0, 0x1p1000}) {
+        EXPECT_EQ(count({{0, 0}, {unit, 0}, {0, unit}, {0, 0}}), 1) << unit;
+        EXPECT_EQ(count({{1, unit}, {2, 3 * unit}, {3, 6 * unit}, {1, unit}}), 1) << unit;
+        EXPECT_EQ(count({{1, unit}, {2, 3 * unit}, {3, 5 * unit}, {1, unit}}), 0) << unit;
+    }
+}
+
 // ---- Meshes -----------------------------------------------------------------------------
 
 /// Heights that change from vertex to vertex, some of them levels.

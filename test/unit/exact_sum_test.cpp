@@ -1,5 +1,6 @@
 // Sums without rounding: compared with rational arithmetic, in any order.
 #include "geometry/exact_sum.hpp"
+#include "geometry/rational.hpp"
 
 #include <CGAL/Exact_rational.h>
 
@@ -131,6 +132,32 @@ TEST(WideSum, ReachesBeyondDoubles) {
         int exponent = 0;
         EXPECT_EQ(std::frexp(number.value, &exponent), 0.625) << scale; // of 2.5
         EXPECT_EQ(number.exponent + exponent, 2 + scale);
+    }
+}
+
+/// Products of doubles of any size, and what is left of them where they cancel.
+TEST(WideSum, OfProductsIsTheNearestDouble) {
+    std::mt19937_64 random(4);
+    const auto any = [&](int least, int most) {
+        const double x = std::uniform_real_distribution<double>(-1, 1)(random);
+        return std::scalbn(x, std::uniform_int_distribution<int>(least, most)(random));
+    };
+    for (int round = 0; round < 3000; ++round) {
+        WideSum sum;
+        Rational exact = 0;
+        const auto add = [&](double a, double b, int scale) {
+            add_product(sum, a, b, scale);
+            exact += Rational(a) * Rational(b) * (scale < 0 ? Rational(0.5) : Rational(1));
+        };
+        const int least = round % 2 == 0 ? -1074 : -550, most = round % 2 == 0 ? 1024 : -500;
+        for (std::uint64_t n = random() % 4; n > 0; --n) {
+            const double a = any(least, most), b = any(least, most);
+            const int scale = -static_cast<int>(random() % 2);
+            add(a, b, scale);
+            if (random() % 2 == 0) add(std::nextafter(a, 0), -b, scale);
+        }
+        EXPECT_EQ(sum.is_zero(), exact == 0);
+        EXPECT_EQ(sum.value(), exact::nearest_double(exact));
     }
 }
 

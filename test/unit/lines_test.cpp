@@ -281,6 +281,21 @@ TEST(Sight, AlongASlopeTouchesIt) {
     }
 }
 
+/// Heights are compared exactly, however small or great they are.
+TEST(Sight, AtTheLimitsOfDoubles) {
+    constexpr double least = std::numeric_limits<double>::denorm_min();
+    for (const double unit : {least, 0x1p-1060, 0x1p-1022, 1.0, 0x1p1021}) {
+        Terrain terrain({{0, 0}, {2, 0}, {0, 2}, {2, 2}}, {3 * unit, 3 * unit, 0, unit});
+        const Host host = terrain.mesh.host.host();
+        Reader<2> reader(host, terrain.mesh.header, ample);
+        abacus_sight_end a{{1, 2}, 1, 0}, b{{1, 0.5}, 1, 0};
+        EXPECT_EQ(look(reader, 0, a, b).kind, ABACUS_SIGHT_FREE) << unit;
+        EXPECT_EQ(look(reader, 0, b, a).kind, ABACUS_SIGHT_FREE) << unit;
+        b.height = -unit;
+        EXPECT_EQ(look(reader, 0, a, b).kind, ABACUS_SIGHT_BLOCKED) << unit;
+    }
+}
+
 TEST(Sight, WithoutGroundNothingBlocks) {
     Terrain terrain({{0, 0}, {4, 0}, {0, 4}, {4, 4}, {2, 2}}, {0, 0, 0, 0, nan});
     const Host host = terrain.mesh.host.host();

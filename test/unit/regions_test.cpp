@@ -4,6 +4,8 @@
 #include "constrain/fixing.hpp"
 #include "constrain/freeing.hpp"
 #include "constrain/region_cuts.hpp"
+#include "geometry/rational.hpp"
+#include "query/scan/region_sizes.hpp"
 #include "support/mesh_in_change.hpp"
 #include "support/point_sets.hpp"
 #include "support/sanitized.hpp"
@@ -403,6 +405,51 @@ TEST(Regions, LargeOnesAreFloodedWithLittleMemory) {
     ASSERT_TRUE(mesh.fill(outlines, {}, fault));
     mesh.expect_outlines(outlines);
     EXPECT_GT(mesh.mesh.cache.counters.evictions, 0u);
+}
+
+/// The area of the only region of a mesh, in a ring of all its points.
+double area_in(const Ring &ring) {
+    const std::vector<Point<2>> points(ring.begin(), ring.end() - 1);
+    MeshInChange<2> mesh(box_around<2>(points), 20 * little);
+    mesh.delaunay.is_constrained = true;
+    EXPECT_TRUE(mesh.build(points));
+    RegionParts parts(mesh.cache.host(), memory);
+    for (const auto &[a, b] : segments_of(ring)) {
+        Fixing(mesh.delaunay, 3).fix(a, b, Fixed::hard);
+        parts.add_outline(1, a, b);
+    }
+    abacus_region_fault fault{};
+    EXPECT_TRUE(Regions(mesh.delaunay, memory)
+                    .fill(
+                        parts, [](RegionNumber, const Box<2> &) {}, fault));
+    parts.close();
+    mesh.cache.flush();
+    mesh.header().facts.census.vertices = points.size();
+    mesh.header().facts.census.simplices = static_cast<std::uint64_t>(mesh.delaunay.simplices());
+    Reader<2> reader(mesh.cache.host(), mesh.header(), 20 * little);
+    double area = -1;
+    region_sizes(reader, memory, [&](const abacus_region_size &size) { area = size.area; });
+    return area;
+}
+
+/// Areas are rounded once, however small or great the coordinates are.
+TEST(Regions, AreasAtTheLimitsOfDoubles) {
+    const auto box = [](const Point<2> &lower, const Point<2> &upper) {
+        return Ring{lower, {upper[0], lower[1]}, upper, {lower[0], upper[1]}, lower};
+    };
+    const Point<2> far{1e300, 1e10};
+    for (const Ring &ring :
+         {box(far, {std::nextafter(far[0], 2e300), std::nextafter(far[1], 2e10)}),
+          box({1e-200, 3e-170}, {1.5e-160, 7e-150}), box({-1e-160, 3}, {7e-160, 3.5}),
+          box({0, 0}, {1.1e-160, 1.3e-160}), box({0, 0}, {3e-170, 1e-170}),
+          box({0, 0}, {1.2e154, 1.2e154}), box({-3e200, 0}, {1e200, 1e-200})}) {
+        exact::Rational twice = 0;
+        for (const auto &[a, b] : segments_of(ring))
+            twice += exact::Rational(a[0]) * exact::Rational(b[1]) -
+                     exact::Rational(b[0]) * exact::Rational(a[1]);
+        EXPECT_EQ(area_in(ring), exact::nearest_double(exact::Rational(twice / 2))) << ring[2][0];
+    }
+    EXPECT_EQ(area_in(box({-1e200, 0}, {1e200, 1e150})), HUGE_VAL);
 }
 
 } // namespace

@@ -610,6 +610,53 @@ TEST(Volume, BeyondDoublesIsInfinite) {
     EXPECT_FALSE(std::isfinite(above<2>(mesh, {}, 0).area));
 }
 
+/// Results are those of a mesh of size 1 times powers of two, as far as these are doubles.
+TEST(Volume, AtTheLimitsOfDoubles) {
+    const auto expect_scaled = [](double value, double of_size_1, int exponent) {
+        EXPECT_DOUBLE_EQ(value, std::ldexp(of_size_1, exponent)) << exponent;
+    };
+    const auto insert = [](Surface &mesh, int e, int h, double second) {
+        const double unit = std::ldexp(1, e), up = std::ldexp(1, h);
+        mesh.insert_all({{1, {0, 0}, {0.25 * up}},
+                         {2, {unit, 0}, {second * up}},
+                         {3, {0, unit}, {-0.75 * up}}});
+    };
+    Surface mesh, other;
+    insert(mesh, 0, 0, 0.5);
+    insert(other, 0, 0, 0.125);
+    const abacus_volume over = above<2>(mesh, {}, 0), against = between(mesh, other, {});
+    for (const int e : {-600, -530, -340, -283, -260, 258, 340, 510, 700}) {
+        Surface small, beside;
+        insert(small, e, e, 0.5);
+        insert(beside, e, e, 0.125);
+        const abacus_volume volume = above<2>(small, {}, 0), both = between(small, beside, {});
+        expect_scaled(volume.area, over.area, 2 * e);
+        expect_scaled(volume.surface, over.surface, 2 * e);
+        expect_scaled(volume.cut, over.cut, 3 * e);
+        expect_scaled(volume.fill, over.fill, 3 * e);
+        expect_scaled(both.surface, against.surface, 2 * e);
+        expect_scaled(both.cut, against.cut, 3 * e);
+    }
+    Surface steep;
+    insert(steep, -600, 500, 0.5);
+    const abacus_volume volume = above<2>(steep, {}, 0);
+    expect_scaled(volume.cut, over.cut, -700);
+    EXPECT_GT(volume.surface, 0);
+}
+
+TEST(Volume, InSpaceOfThinTetrahedra) {
+    MeshOf<3> mesh(1);
+    ASSERT_EQ(mesh.insert({{1, {0, 0, 0}, {-1}},
+                           {2, {0x1p700, 0, 0}, {1}},
+                           {3, {0, 0x1p-600, 0}, {1}},
+                           {4, {0, 0, 0x1p-600}, {1}}}),
+              ABACUS_OK);
+    const abacus_volume volume = above<3>(mesh, {}, 0);
+    EXPECT_DOUBLE_EQ(volume.area, 0x1p-500 / 6);
+    EXPECT_DOUBLE_EQ(volume.fill, 0x1p-503 / 6);
+    EXPECT_DOUBLE_EQ(volume.surface, 0x1p100 / 8 * std::sqrt(2.0));
+}
+
 TEST(Volume, ShowsItsProgress) {
     Surface mesh;
     mesh.insert_all(raised(points(3000, 22), hill));

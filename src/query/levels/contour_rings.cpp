@@ -1,5 +1,7 @@
 #include "query/levels/contour_rings.hpp"
 
+#include "geometry/exact_sum.hpp"
+
 #include <bit>
 #include <cstdint>
 
@@ -34,17 +36,16 @@ void ContourRings::take(std::size_t place) {
     open_.resize(place);
 }
 
-/// If two triangles cancel each other, the sum is exactly 0 as well.
+/// Exact.
 bool ContourRings::has_area() const {
     if (ring_.size() < 4) return false;
-    double twice = 0;
-    const Point<2> &from = ring_[0];
-    for (std::size_t i = 1; i + 2 < ring_.size(); ++i) {
+    WideSum twice;
+    for (std::size_t i = 0; i + 1 < ring_.size(); ++i) {
         const Point<2> &a = ring_[i], &b = ring_[i + 1];
-        twice += (a[0] / 2 - from[0] / 2) * (b[1] / 2 - from[1] / 2) -
-                 (a[1] / 2 - from[1] / 2) * (b[0] / 2 - from[0] / 2);
+        add_product(twice, a[0], b[1]);
+        add_product(twice, -b[0], a[1]);
     }
-    return twice != 0;
+    return !twice.is_zero();
 }
 
 } // namespace abacus

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace abacus {
@@ -15,6 +16,8 @@ namespace {
 
 /// Of a parameter; if the error is larger, the parameter is computed in rational numbers.
 constexpr double most_error = 1e-9;
+/// More than what a parameter loses where something underflows.
+constexpr double underflow = std::numeric_limits<double>::min();
 
 } // namespace
 
@@ -89,12 +92,12 @@ void LineScan<D>::fill(Crossing<D> &crossing, Handle h, const FacetPlace<D> &pla
     }
     crossing.at = std::clamp(crossing.at, least, greatest);
     crossing.error = D * place.error * (greatest - least) +
-                     1e-14 * std::max(std::fabs(least), std::fabs(greatest));
+                     1e-14 * std::max(std::fabs(least), std::fabs(greatest)) + underflow;
     if (std::isfinite(crossing.at) && crossing.error <= most_error * std::fabs(crossing.at))
         [[likely]]
         return;
     crossing.at = exact::parameter<D>(line_, crossing.corner);
-    crossing.error = 1e-15 * std::fabs(crossing.at);
+    crossing.error = 1e-15 * std::fabs(crossing.at) + underflow;
 }
 
 template <int D> std::optional<LinePiece<D>> LineScan<D>::piece_in(Handle h) const {
@@ -162,7 +165,7 @@ Crossing<D> LineScan<D>::crossing_at(const Piece &piece, double at, const Point<
     Crossing<D> crossing;
     crossing.is_end = false;
     crossing.at = at;
-    crossing.error = 1e-15 * std::fabs(at);
+    crossing.error = 1e-15 * std::fabs(at) + underflow;
     crossing.corner.fill(place);
     crossing.weight.fill(0);
     crossing.weight[0] = 1;

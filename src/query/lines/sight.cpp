@@ -3,6 +3,7 @@
 #include "geometry/line_numbers.hpp"
 
 #include <cmath>
+#include <limits>
 
 namespace abacus {
 
@@ -129,9 +130,11 @@ bool LineOfSight::is_above(const Line<2> &line, const Crossing<2> &crossing,
     const double rise = to_.rounded - from_.rounded, z = from_.rounded + crossing.at * rise;
     const double above = crossing.mean() - z;
     sample = Sample{crossing.at, above};
+    constexpr double underflow = std::numeric_limits<double>::min(); // far more than all of it
     const double error = 1e-8 * (greatest - least) + crossing.error * std::fabs(rise) +
                          1e-14 * (std::fabs(least) + std::fabs(greatest) +
-                                  std::fabs(from_.rounded) + std::fabs(to_.rounded));
+                                  std::fabs(from_.rounded) + std::fabs(to_.rounded)) +
+                         underflow;
     if (std::fabs(above) > error) return above > 0;
     if (crossing.corner[0] == crossing.corner[1]) return false; // the border of a polygon
     const auto weights = exact::facet_weights<2>(line, [&](int i) { return crossing.corner[i]; });

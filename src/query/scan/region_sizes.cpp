@@ -4,8 +4,6 @@
 #include "geometry/exact_sum.hpp"
 #include "geometry/ordered.hpp"
 
-#include <cmath>
-
 namespace abacus {
 
 namespace {
@@ -14,12 +12,6 @@ namespace {
 // 0, both ends with the region on the left.
 enum Kind : std::uint64_t { are_triangles, is_edge };
 constexpr std::size_t size_words = 7, size_key = 2;
-
-void add_product(ExactSum &sum, double a, double b) {
-    const double product = a * b;
-    sum.add(product);
-    sum.add(std::fma(a, b, -product));
-}
 
 /// Adds the border's edges of a triangle in a region.
 void add_border_edges(Cache<2> &cache, Handle h, RecordSort &sort) {
@@ -73,11 +65,11 @@ void region_sizes(Reader<2> &reader, std::size_t memory,
     if (!reader.is_empty()) collect_sizes(reader, sort);
     sort.finish();
     abacus_region_size size{};
-    ExactSum twice;
+    WideSum area;
     Box<2> box;
     const auto end_region = [&] {
         if (size.region == no_region) return;
-        size.area = twice.value() / 2;
+        size.area = area.value();
         std::copy_n(box.lower.begin(), 2, size.lower);
         std::copy_n(box.upper.begin(), 2, size.upper);
         visit(size);
@@ -87,7 +79,7 @@ void region_sizes(Reader<2> &reader, std::size_t memory,
             end_region();
             size = {};
             size.region = static_cast<RegionNumber>(record[0]);
-            twice = {};
+            area = {};
             box = {};
         }
         if (record[1] == are_triangles) {
@@ -97,8 +89,8 @@ void region_sizes(Reader<2> &reader, std::size_t memory,
         ++size.edges;
         const Point<2> a = point_from_ordered<2>(record + 3), b = point_from_ordered<2>(record + 5);
         box.extend(a); // each vertex begins an edge
-        add_product(twice, a[0], b[1]);
-        add_product(twice, -b[0], a[1]);
+        add_product(area, a[0], b[1], -1);
+        add_product(area, -b[0], a[1], -1);
     }
     end_region();
     sort.close();

@@ -6,10 +6,6 @@ namespace abacus {
 
 namespace {
 
-ScaledNumber quotient(const ScaledNumber &a, const ScaledNumber &b) {
-    return {a.value / b.value, a.exponent - b.exponent};
-}
-double rounded(const ScaledNumber &number) { return std::ldexp(number.value, number.exponent); }
 double root(ScaledNumber number) {
     if (number.exponent % 2 != 0) {
         number.value *= 2;
@@ -49,9 +45,9 @@ template <int D> abacus_comparison Comparison<D>::result() const {
     const ScaledNumber size = size_.scaled();
     result.greatest = greatest.difference;
     std::copy(greatest.place.begin(), greatest.place.end(), result.place);
-    result.mean = rounded(quotient(sum_.scaled(), size));
-    result.mean_absolute = rounded(quotient(absolute_.scaled(), size));
-    result.rms = root(quotient(squares_.scaled(), size));
+    result.mean = rounded(sum_.scaled() / size);
+    result.mean_absolute = rounded(absolute_.scaled() / size);
+    result.rms = root(squares_.scaled() / size);
     return result;
 }
 

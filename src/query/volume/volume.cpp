@@ -5,64 +5,63 @@ namespace abacus {
 namespace {
 
 /// The area of the surface itself, in space.
-double surface_of(const Piece<2> &piece) {
+ScaledNumber surface_of(const Piece<2> &piece) {
     const auto raised = [&](int i) {
         return Point<3>{piece.corner[i][0], piece.corner[i][1], piece.value[i]};
     };
     return triangle_area(raised(0), raised(1), raised(2));
 }
 
-double surface_of(const Piece<3> &piece) { return section_area(piece, piece.value); }
+ScaledNumber surface_of(const Piece<3> &piece) { return section_area(piece, piece.value); }
 
 /// How many times larger a surface is than the triangle below it.
-double steepness(const ValuedSimplex<2> &simplex) {
+ScaledNumber steepness(const ValuedSimplex<2> &simplex) {
     constexpr double flat = 0x1p-20;
     if (!(measure(NearFrame<2>(simplex, simplex).into(simplex)) > flat))
-        return exact::steepness(simplex.as_it_is());
+        return {exact::steepness(simplex.as_it_is()), 0};
     const Piece<2> whole = simplex.piece();
-    return surface_of(whole) / measure(whole);
+    return surface_of(whole) / scaled_measure(whole);
 }
+
+void add(WideSum &sum, const ScaledNumber &number) { sum.add(number.value, number.exponent); }
 
 } // namespace
 
 // ---- Sums --------------------------------------------------------------------------------
 
 template <int D> void Volume<D>::add(const Piece<D> &piece) {
-    area_.add(measure(piece));
-    surface_.add(surface_of(piece));
+    abacus::add(area_, scaled_measure(piece));
+    abacus::add(surface_, surface_of(piece));
     add_sides(piece);
 }
 
-template <int D> void Volume<D>::add(const Portion<D> &portion, double steepness) {
-    const auto number = [](const ScaledNumber &scaled) {
-        return std::ldexp(scaled.value, scaled.exponent);
-    };
-    const double area = number(portion.size());
-    area_.add(area);
-    surface_.add(area * steepness);
+template <int D> void Volume<D>::add(const Portion<D> &portion, const ScaledNumber &steepness) {
+    abacus::add(area_, portion.size());
+    abacus::add(surface_, portion.size() * steepness);
     each_of_one_sign<D>(portion, [&](const Portion<D> &part) {
-        const double amount = number(part.integral());
-        if (amount >= 0)
-            cut_.add(amount);
+        const ScaledNumber amount = part.integral();
+        if (amount.value >= 0)
+            abacus::add(cut_, amount);
         else
-            fill_.add(-amount);
+            abacus::add(fill_, {-amount.value, amount.exponent});
     });
 }
 
 template <int D> void Volume<D>::add_sides(const Piece<D> &piece) {
     const auto amount = [](const Piece<D> &part) {
-        return D == 2 ? std::fabs(measure(part) * mean(part)) : measure(part);
+        const ScaledNumber size = scaled_measure(part);
+        return D == 2 ? size * scaled(std::fabs(mean(part))) : size;
     };
     const auto [least, greatest] = std::minmax_element(piece.value.begin(), piece.value.end());
     if (*least >= 0) {
-        cut_.add(amount(piece));
+        abacus::add(cut_, amount(piece));
     } else if (*greatest <= 0) {
-        fill_.add(amount(piece));
+        abacus::add(fill_, amount(piece));
     } else {
         Sides<D> turned;
         for (int i = 0; i <= D; ++i) turned[i] = -piece.value[i];
-        clip<D>(piece, piece.value, [&](const Piece<D> &part) { cut_.add(amount(part)); });
-        clip<D>(piece, turned, [&](const Piece<D> &part) { fill_.add(amount(part)); });
+        clip<D>(piece, piece.value, [&](const Piece<D> &part) { abacus::add(cut_, amount(part)); });
+        clip<D>(piece, turned, [&](const Piece<D> &part) { abacus::add(fill_, amount(part)); });
     }
 }
 
@@ -95,7 +94,7 @@ abacus_volume volume_between(const Host &host, const abacus_facts &facts,
         Volume<2> volume;
         each_overlap<2>(host, facts, surface, other,
                         [&](const ValuedSimplex<2> &first, const ValuedSimplex<2> &second) {
-                            const double steep = steepness(first);
+                            const ScaledNumber steep = steepness(first);
                             portions.each(
                                 first, second, window, surface.extent,
                                 [&](const Portion<2> &portion) { volume.add(portion, steep); });

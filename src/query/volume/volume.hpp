@@ -27,7 +27,7 @@ public:
     void add(const Piece<D> &piece);
     /// The same between two surfaces, the first of which is this many times as large as
     /// its projection.
-    void add(const Portion<D> &portion, double steepness);
+    void add(const Portion<D> &portion, const ScaledNumber &steepness);
 
     abacus_volume sums() const {
         return {area_.value(), surface_.value(), cut_.value(), fill_.value()};
@@ -36,7 +36,7 @@ public:
 private:
     void add_sides(const Piece<D> &piece);
 
-    ExactSum area_, surface_, cut_, fill_;
+    WideSum area_, surface_, cut_, fill_;
 };
 
 /// For a mesh over a base. Simplices with a corner that has no finite value are left out.
