@@ -36,5 +36,12 @@ FROM (VALUES ('m5', pg_temp.polygon(0, -1, -1, 1, -1, 1, 1, -1, 1, -1, -1), 4), 
 SELECT is(pg_temp.state(format('SELECT * FROM abacus_hull(%L, within => %L)', 'm0', pg_temp.polygon(307, -9, -9, 9, -9, 9, 9, -9, 9, -9, -9))), '22003', 'a polygon of another size');
 SELECT is(pg_temp.state(format('SELECT * FROM abacus_hull(%L, within => %L)', 'm2', pg_temp.polygon(200, 0, 0, 4, 4, 4, 0, 0, 4, 0, 0))), '22023', 'a polygon that crosses itself');
 
+-- Voronoi cells in a window
+SELECT results_eq(format($$SELECT vertex FROM abacus_voronoi('m%s', '{0,0}', '{2e%s,2e%2$s}') ORDER BY 1$$, n, power), 'VALUES (1::bigint), (4), (5)', 'cells at 1e' || power)
+FROM (VALUES (0, 0), (1, 104), (2, 200), (3, 300), (4, -110), (5, -170), (6, -290)) AS s (n, power);
+SELECT results_eq(format($$SELECT vertex, neighbour, round((size / '1e%s')::numeric, 6) FROM abacus_voronoi_facets('m%s', '{0,0}', '{2e%1$s,2e%1$s}') ORDER BY 1, 2, 3$$, power, n),
+    $$SELECT vertex, neighbour, round(size::numeric, 6) FROM abacus_voronoi_facets('m0', '{0,0}', '{2,2}') ORDER BY 1, 2, 3$$, 'facets at 1e' || power)
+FROM (VALUES (1, 104), (2, 200), (3, 300), (4, -110), (5, -170), (6, -290)) AS s (n, power);
+
 SELECT * FROM finish();
 ROLLBACK;
