@@ -43,5 +43,13 @@ SELECT results_eq(format($$SELECT vertex, neighbour, round((size / '1e%s')::nume
     $$SELECT vertex, neighbour, round(size::numeric, 6) FROM abacus_voronoi_facets('m0', '{0,0}', '{2,2}') ORDER BY 1, 2, 3$$, 'facets at 1e' || power)
 FROM (VALUES (1, 104), (2, 200), (3, 300), (4, -110), (5, -170), (6, -290)) AS s (n, power);
 
+-- slopes whose gradient overflows or underflows
+SELECT abacus_triangulate('steep', 'VALUES (1, 0, 0, 0::float8), (2, 1e-10, 0, 1e300), (3, 0, 1e-10, 2e300)', '{h}');
+SELECT abacus_triangulate('gentle', 'VALUES (1, 0, 0, 0::float8), (2, 1e200, 0, 1e-200), (3, 0, 1e200, 2e-200)', '{h}');
+SELECT abacus_triangulate('level', 'VALUES (1, 0, 0, 1e-200::float8), (2, 1e200, 0, 1e-200), (3, 0, 1e200, 1e-200)', '{h}');
+SELECT is((SELECT (slope, round(aspect::numeric, 3)) FROM abacus_slope('steep', 1e-11, 1e-11)), (90::float8, 206.565), 'infinitely steep');
+SELECT is((SELECT (slope, round(aspect::numeric, 3)) FROM abacus_slope('gentle', 1e199, 1e199)), (0::float8, 206.565), 'almost level');
+SELECT is((SELECT (slope, aspect) FROM abacus_slope('level', 1e199, 1e199)), (0::float8, NULL::float8), 'level');
+
 SELECT * FROM finish();
 ROLLBACK;
