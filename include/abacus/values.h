@@ -61,11 +61,12 @@ ABACUS_API abacus_status abacus_mesh_weigh(abacus_mesh *mesh,
 ABACUS_API double abacus_weighted_mean(const abacus_weight *weights, const double *values, size_t count);
 /*
  * The gradient of the first attribute in the simplex that abacus_mesh_locate finds, `dimension`
- * doubles; NaN where a corner has no finite value. ABACUS_END outside.
+ * doubles; NaN where a corner has no finite value. ABACUS_END outside. If `exponent` is not null, the
+ * gradient is to be multiplied by 2^exponent, so that its direction is right where it overflows or underflows.
  */
 ABACUS_API abacus_status abacus_mesh_gradient(abacus_mesh *mesh,
 											  const abacus_interpolation *interpolation,
-											  const double *point, double *gradient,
+											  const double *point, double *gradient, int *exponent,
 											  abacus_error *error);
 
 /* Gets the id of a place and its values, NULL outside; as abacus_place_report. */

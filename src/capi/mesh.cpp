@@ -67,9 +67,10 @@ double abacus_weighted_mean(const abacus_weight *weights, const double *values, 
 }
 
 abacus_status abacus_mesh_gradient(abacus_mesh *mesh, const abacus_interpolation *interpolation,
-                                   const double *point, double *gradient, abacus_error *error) {
+                                   const double *point, double *gradient, int *exponent,
+                                   abacus_error *error) {
     return answer_at(mesh, point, error, [&]<int D>(abacus::Reader<D> &reader, const auto &p) {
-        return abacus::gradient_at<D>(reader, *interpolation, p, gradient);
+        return abacus::gradient_at<D>(reader, *interpolation, p, gradient, exponent);
     });
 }
 

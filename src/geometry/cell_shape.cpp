@@ -1,5 +1,7 @@
 #include "geometry/cell_shape.hpp"
 
+#include "geometry/distance.hpp"
+
 #include <cmath>
 
 namespace abacus {
@@ -46,13 +48,17 @@ template <> void CellShape<3>::fill(const Box<3> &window) {
 
 // ---- Cuts -------------------------------------------------------------------------------
 
-template <int D> double CellShape<D>::excess(const Point<D> &at, const Point<D> &neighbour) const {
-    double along = 0;
+template <int D> bool CellShape<D>::keeps(const Point<D> &at, const Point<D> &neighbour) const {
+    double along = 0, size = 0;
     for (int i = 0; i < D; ++i) {
         const double edge = neighbour[i] - vertex_[i];
-        along += (at[i] - vertex_[i] - edge / 2) * edge;
+        const double part = (at[i] - vertex_[i] - edge / 2) * edge;
+        along += part;
+        size += std::fabs(part);
     }
-    return along;
+    if (size > 1e-250 && size < 1e250) [[likely]]
+        return along <= 0;
+    return compare_distance<D>(at, vertex_, neighbour) <= 0; // products underflow, or overflow
 }
 
 template <int D>
@@ -85,7 +91,7 @@ template <int D> void CellShape<D>::cut_face(const Face &face, int neighbour) {
     for (std::size_t i = 0; i < size; ++i) {
         const Corner &from = corners_[face.begin + i];
         const Corner &to = corners_[face.begin + (i + 1) % size];
-        const bool is_in = excess(from.at, beyond) <= 0, is_next_in = excess(to.at, beyond) <= 0;
+        const bool is_in = keeps(from.at, beyond), is_next_in = keeps(to.at, beyond);
         if (is_in) add_cut_corner(from);
         if (is_in == is_next_in) continue;
         const Corner &inside = is_in ? from : to, &outside = is_in ? to : from;
@@ -173,10 +179,38 @@ template <int D> void CellShape<D>::tidy() {
 
 namespace {
 
-Point<2> minus(const Point<2> &a, const Point<2> &b) { return {a[0] - b[0], a[1] - b[1]}; }
-Point<3> minus(const Point<3> &a, const Point<3> &b) {
-    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
+/// For each axis, where powers of two are divided out so that products neither underflow nor
+/// overflow, the exponent; 0 for ordinary coordinates.
+template <int D> class Exponents {
+public:
+    template <class Corners>
+    Exponents(const Corners &corners, std::size_t begin, std::size_t end, Point<D> largest = {}) {
+        for (std::size_t i = begin; i < end; ++i)
+            for (int axis = 0; axis < D; ++axis)
+                largest[axis] = std::max(std::fabs(largest[axis]), std::fabs(corners[i].at[axis]));
+        for (int axis = 0; axis < D; ++axis) {
+            const double size = std::fabs(largest[axis]);
+            if (size != 0 && !(size > 1e-70 && size < 1e70)) of_[axis] = std::ilogb(size) + 1;
+        }
+    }
+    Point<D> minus(const Point<D> &a, const Point<D> &b) const {
+        Point<D> difference;
+        for (int i = 0; i < D; ++i)
+            difference[i] =
+                of_[i] == 0 ? a[i] - b[i] : std::scalbn(a[i], -of_[i]) - std::scalbn(b[i], -of_[i]);
+        return difference;
+    }
+    /// What a product of differences along all axes, or all but one, really is.
+    double undo(double product, int without = -1) const {
+        int sum = 0;
+        for (int i = 0; i < D; ++i) sum += i == without ? 0 : of_[i];
+        return sum == 0 ? product : std::scalbn(product, sum);
+    }
+
+private:
+    std::array<int, D> of_{};
+};
+
 double cross(const Point<2> &a, const Point<2> &b) { return a[0] * b[1] - a[1] * b[0]; }
 Point<3> cross(const Point<3> &a, const Point<3> &b) {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
@@ -184,11 +218,12 @@ Point<3> cross(const Point<3> &a, const Point<3> &b) {
 
 /// Twice the area of a ring: a number in the plane, a vector normal to it in space.
 template <int D, class Corners>
-auto turned(const Corners &corners, std::size_t begin, std::size_t end) {
+auto turned(const Corners &corners, std::size_t begin, std::size_t end,
+            const Exponents<D> &exponents) {
     decltype(cross(Point<D>{}, Point<D>{})) sum{};
     for (std::size_t i = begin + 1; i + 1 < end; ++i) {
-        const auto part = cross(minus(corners[i].at, corners[begin].at),
-                                minus(corners[i + 1].at, corners[begin].at));
+        const auto part = cross(exponents.minus(corners[i].at, corners[begin].at),
+                                exponents.minus(corners[i + 1].at, corners[begin].at));
         if constexpr (D == 2)
             sum += part;
         else
@@ -200,25 +235,30 @@ auto turned(const Corners &corners, std::size_t begin, std::size_t end) {
 } // namespace
 
 template <int D> double CellShape<D>::area(const Face &face) const {
-    const auto across = turned<D>(corners_, face.begin, face.end);
+    const Exponents<D> exponents(corners_, face.begin, face.end);
+    const auto across = turned<D>(corners_, face.begin, face.end, exponents);
     if constexpr (D == 2)
-        return across / 2;
+        return exponents.undo(across / 2);
     else
-        return std::hypot(across[0], across[1], across[2]) / 2;
+        return length(Point<3>{exponents.undo(across[0], 0), exponents.undo(across[1], 1),
+                               exponents.undo(across[2], 2)}) /
+               2;
 }
 
 template <int D> double CellShape<D>::content() const {
     double sum = 0;
-    for (const Face &face : faces_) {
-        if constexpr (D == 2) {
-            sum += area(face);
-        } else {
-            const Point<3> across = turned<3>(corners_, face.begin, face.end);
-            const Point<3> to = minus(corners_[face.begin].at, vertex_);
+    if constexpr (D == 2) {
+        for (const Face &face : faces_) sum += area(face);
+        return sum;
+    } else {
+        const Exponents<3> exponents(corners_, 0, corners_.size(), vertex_);
+        for (const Face &face : faces_) {
+            const Point<3> across = turned<3>(corners_, face.begin, face.end, exponents);
+            const Point<3> to = exponents.minus(corners_[face.begin].at, vertex_);
             sum += (to[0] * across[0] + to[1] * across[1] + to[2] * across[2]) / 6;
         }
+        return exponents.undo(sum);
     }
-    return sum;
 }
 
 template class CellShape<2>;

@@ -7,10 +7,10 @@
 //
 // A cell inside the window has the corners that the mesh gives it, circumcentres. Any other one
 // begins as the window and is cut by the bisector with each neighbour. Which corners go is decided
-// in doubles. A new corner is the place that its labels have in common (equidistant.hpp), held
-// between the ends of the edge it lies on: so what is wrong with a decision is as little as
-// rounding. Each edge is in two faces with the same ends; therefore where a face is left another
-// is entered, and the edges of the new face make closed rings.
+// in doubles, where these neither underflow nor overflow. A new corner is the place that its labels
+// have in common (equidistant.hpp), held between the ends of the edge it lies on: so what is wrong
+// with a decision is as little as rounding. Each edge is in two faces with the same ends; therefore
+// where a face is left another is entered, and the edges of the new face make closed rings.
 #pragma once
 
 #include "geometry/equidistant.hpp"
@@ -80,8 +80,8 @@ private:
         Point<D> at;
     };
 
-    /// Negative where the vertex is nearer than the neighbour.
-    double excess(const Point<D> &at, const Point<D> &neighbour) const;
+    /// Whether the neighbour is not nearer to a place than the vertex is.
+    bool keeps(const Point<D> &at, const Point<D> &neighbour) const;
     Point<D> crossing(int face, int edge, int cut, const Corner &inside,
                       const Corner &outside) const;
     void cut_face(const Face &face, int neighbour);

@@ -1,5 +1,6 @@
 #include "geometry/common_portions.hpp"
 
+#include "geometry/distance.hpp"
 #include "geometry/polytope.hpp"
 
 #include <algorithm>
@@ -7,19 +8,6 @@
 namespace abacus::exact {
 
 namespace {
-
-/// Rounded; its value is from 1/2 to 1, or 0.
-ScaledNumber scaled(Rational x) {
-    constexpr int step = 500;
-    const Rational large(std::ldexp(1.0, step));
-    ScaledNumber number{0, 0};
-    for (; CGAL::abs(x) > large; x /= large) number.exponent += step;
-    for (; x != 0 && CGAL::abs(x) * large < 1; x *= large) number.exponent -= step;
-    int exponent = 0;
-    number.value = std::frexp(nearest_double(x), &exponent);
-    number.exponent += exponent;
-    return number;
-}
 
 /// Least powers of two: those of the least measures and values of doubles. What is smaller is lost
 /// beside anything else.
@@ -63,8 +51,8 @@ void each_common_portion(const Piece<D> &first, const Piece<D> &second, const Bo
 
 double steepness(const Piece<2> &piece) {
     const LinearFunction<2> function = function_of<2>(piece);
-    return std::hypot(1, nearest_double(function.gradient[0]),
-                      nearest_double(function.gradient[1]));
+    return length(
+        Point<3>{1, nearest_double(function.gradient[0]), nearest_double(function.gradient[1])});
 }
 
 template void each_common_portion<2>(const Piece<2> &, const Piece<2> &, const Box<2> &,

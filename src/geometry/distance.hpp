@@ -24,12 +24,18 @@ template <int D> double rounded_square(const Point<D> &p, const Point<D> &a) {
     return sum;
 }
 
+/// The length of a vector, rounded; infinite only if no double is so large.
+inline double length(const Point<2> &a) { return std::hypot(a[0], a[1]); }
+inline double length(const Point<3> &a) {
+    const double size = std::hypot(a[0], a[1], a[2]); // NaN if one is infinite
+    return std::isnan(size) ? std::hypot(std::hypot(a[0], a[1]), a[2]) : size;
+}
+
 /// The distance, rounded; infinite only if no double is so large.
 template <int D> double distance(const Point<D> &p, const Point<D> &a) {
-    if constexpr (D == 2)
-        return std::hypot(a[0] - p[0], a[1] - p[1]);
-    else
-        return std::hypot(a[0] - p[0], a[1] - p[1], a[2] - p[2]);
+    Point<D> way;
+    for (int i = 0; i < D; ++i) way[i] = a[i] - p[i];
+    return length(way);
 }
 
 /// -1 if a is nearer to p than b is, +1 if it is farther away, 0 if neither.

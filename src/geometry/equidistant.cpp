@@ -34,7 +34,13 @@ template <int D> std::optional<Point<D>> Equidistant<D>::place(Rounding rounding
     std::sort(sides_.begin(), sides_.begin() + side_count_,
               [](const Side &a, const Side &b) { return a.axis < b.axis; });
     std::optional<Point<D>> place;
-    if (rounding == Rounding::whenever) place = solve_in_doubles<D>(system<double>(true));
+    if (rounding == Rounding::whenever) {
+        const auto seen = system<double>(true);
+        // Halves of squares of distances, which must not underflow.
+        if (std::all_of(seen.right.begin(), seen.right.begin() + (count_ - 1),
+                        [](double half) { return half > 1e-250; }))
+            place = solve_in_doubles<D>(seen);
+    }
     if (place)
         for (int axis = 0; axis < D; ++axis) (*place)[axis] += (*points_[0])[axis];
     else

@@ -52,11 +52,12 @@ template <class T, int D> struct LinearSystem {
     std::array<T, D> right;
 };
 
-/// The solution in doubles; nothing where too little is left of the determinant.
+/// The solution in doubles; nothing where too little is left of the determinant, or where this is
+/// so small that a product with the right side may underflow.
 template <int D> std::optional<Point<D>> solve_in_doubles(const LinearSystem<double, D> &system) {
     const double whole = system.determinant(system.matrix);
     const double size = system.permanent(system.matrix);
-    if (!(std::abs(whole) > 1e-5 * size && size > 1e-250 && size < 1e250)) return std::nullopt;
+    if (!(std::abs(whole) > 1e-5 * size && size > 1e-150 && size < 1e250)) return std::nullopt;
     Point<D> x;
     bool is_finite = true;
     for (int axis = 0; axis < D; ++axis) {

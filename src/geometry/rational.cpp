@@ -43,4 +43,16 @@ double nearest_double(const Rational &x) {
     return x < 0 ? -nearest_to_positive(-x) : nearest_to_positive(x);
 }
 
+ScaledNumber scaled(Rational x) {
+    constexpr int step = 500;
+    const Rational large(std::ldexp(1.0, step));
+    ScaledNumber number{0, 0};
+    for (; CGAL::abs(x) > large; x /= large) number.exponent += step;
+    for (; x != 0 && CGAL::abs(x) * large < 1; x *= large) number.exponent -= step;
+    int exponent = 0;
+    number.value = std::frexp(nearest_double(x), &exponent);
+    number.exponent += exponent;
+    return number;
+}
+
 } // namespace abacus::exact

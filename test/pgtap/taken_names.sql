@@ -79,6 +79,18 @@ SELECT throws_ok($$SELECT abacus_constrain('held.bay', 'VALUES (7, 1, 1), (7, 2,
 SELECT is_empty($$SELECT * FROM abacus_check('held.bay')$$, 'it is sound');
 RESET ROLE;
 
+-- operators of others, which the caller's search_path finds before those of PostgreSQL that take other types
+CREATE FUNCTION held.seize(oid, integer) RETURNS boolean LANGUAGE plpgsql AS $$ BEGIN INSERT INTO ran VALUES (current_user); RETURN $1 OPERATOR(pg_catalog.=) $2; END $$;
+CREATE FUNCTION held.seize(text, text) RETURNS boolean LANGUAGE plpgsql AS $$ BEGIN INSERT INTO ran VALUES (current_user); RETURN $1 OPERATOR(pg_catalog.=) $2; END $$;
+CREATE OPERATOR held.= (LEFTARG = oid, RIGHTARG = integer, FUNCTION = held.seize);
+CREATE OPERATOR held.= (LEFTARG = text, RIGHTARG = text, FUNCTION = held.seize);
+SELECT set_config('search_path', 'held, pg_catalog, ' || current_setting('search_path'), true);
+SELECT abacus_level('held.lined', 10), count(*) FROM abacus_contours('held.lined', 1, max_error => 10);
+SELECT abacus_tiles('held.lined', world => '{0,0,40}', attribute => 'h');
+SELECT abacus_levels_refresh('held.lined');
+RESET search_path;
+SELECT is_empty('TABLE ran', 'operators of others are not called');
+
 -- an octree
 SELECT abacus_octree_create('held.tree', 2, '{0,0}', '{1,1}', '{v}');
 SELECT pg_temp.forget('held.tree');

@@ -96,7 +96,7 @@ public:
         return abacus_mesh_weigh(handle_, &how, p.data(), &weights, &count, &error);
     }
     abacus_status gradient(const abacus_interpolation &how, const Point<D> &p, double *gradient) {
-        return abacus_mesh_gradient(handle_, &how, p.data(), gradient, &error);
+        return abacus_mesh_gradient(handle_, &how, p.data(), gradient, nullptr, &error);
     }
     abacus_counters counters() const;
 

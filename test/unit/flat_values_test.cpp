@@ -214,6 +214,28 @@ TYPED_TEST(FlatValues, GradientsAreRoundedOnce) {
     }
 }
 
+TYPED_TEST(FlatValues, ScaledGradientsNeitherOverflowNorUnderflow) {
+    constexpr int D = TypeParam::value;
+    abacus_simplex simplex{};
+    for (const auto &[extent, height] : {std::pair{0x1p-30, 0x1p1000},
+                                         {0x1p-1000, 0x1p1000},
+                                         {0x1p600, 0x1p-600},
+                                         {0x1p1000, 0x1p-1060}}) {
+        double values[D + 1] = {};
+        for (int i = 0; i < D; ++i) {
+            simplex.corner[i + 1][i] = extent;
+            values[i + 1] = (i + 1) * height;
+        }
+        Point<D> gradient;
+        const int exponent = scaled_gradient_in<D>(simplex, values, gradient);
+        EXPECT_EQ(std::ldexp(gradient[0], exponent - std::ilogb(height) + std::ilogb(extent)), 1);
+        for (int i = 1; i < D; ++i) EXPECT_EQ(gradient[i], (i + 1) * gradient[0]);
+        std::fill(values, values + D + 1, height);
+        EXPECT_EQ(scaled_gradient_in<D>(simplex, values, gradient), 0);
+        for (const double x : gradient) EXPECT_EQ(x, 0);
+    }
+}
+
 TEST(NearestDouble, RoundsToEvenAndToInfinity) {
     const auto third = [](double x) { return exact::nearest_double(Rational(Rational(x) / 3)); };
     EXPECT_EQ(third(1), 1.0 / 3);

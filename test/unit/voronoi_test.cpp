@@ -4,6 +4,7 @@
 #include "support/point_sets.hpp"
 
 #include <abacus/shapes.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -109,6 +110,12 @@ template <int D> std::vector<Point<D>> points_of(int kind, int n, unsigned seed)
     return points;
 }
 
+/// Infinite or almost equal.
+MATCHER_P(RoundsLike, expected, "") {
+    return arg == expected ||
+           std::abs(arg - expected) <= 1e-9 * std::abs(expected) + 16 * 0x1p-1074;
+}
+
 template <int D> double content(const abacus_window &w) {
     double product = 1;
     for (int i = 0; i < D; ++i) product *= w.upper[i] - w.lower[i];
@@ -207,6 +214,50 @@ TEST(Voronoi, CocircularPointsHaveOneCorner) {
     const Cells cells = read<2>(mesh, window, 1 << 20);
     EXPECT_EQ(cells.cell.size(), points.size());
     EXPECT_NEAR(cells.sum, 9, 1e-12);
+}
+
+/// All coordinates times a power of two, also one whose square no double holds: the same cells.
+template <int D> void expect_same_at(int exponent) {
+    SCOPED_TRACE(exponent);
+    const auto cells_at = [](int scale, bool has_window) {
+        auto points = points_of<D>(0, D == 2 ? 40 : 20, 3);
+        for (auto &p : points)
+            for (double &x : p) x = std::ldexp(x, scale);
+        MeshOf<D> mesh(0);
+        EXPECT_EQ(mesh.stage(number<D>(points)), ABACUS_OK);
+        EXPECT_EQ(mesh.build(), ABACUS_OK) << mesh.error.message;
+        abacus_window window{};
+        if (has_window) window.kind = ABACUS_BOX_WINDOW;
+        std::fill_n(window.lower, D, std::ldexp(2, scale));
+        std::fill_n(window.upper, D, std::ldexp(5, scale));
+        return read<D>(mesh, window, 1 << 20);
+    };
+    for (const bool has_window : {false, true}) {
+        const Cells expected = cells_at(0, has_window), cells = cells_at(exponent, has_window);
+        ASSERT_EQ(cells.cell.size(), expected.cell.size());
+        ASSERT_EQ(cells.facet.size(), expected.facet.size());
+        for (const auto &[id, cell] : expected.cell) {
+            const abacus_voronoi_cell &found = cells.cell.at(id);
+            const auto at_scale = [&](double x, int dimension) {
+                return std::ldexp(x, dimension * exponent);
+            };
+            EXPECT_THAT(found.area, RoundsLike(at_scale(cell.area, 2))) << id;
+            EXPECT_THAT(found.volume, RoundsLike(at_scale(cell.volume, 3))) << id;
+            const auto &ring = cells.ring.at(id), &wanted = expected.ring.at(id);
+            ASSERT_EQ(ring.size(), wanted.size()) << id;
+            for (std::size_t i = 0; i < ring.size(); ++i)
+                EXPECT_THAT(ring[i], RoundsLike(at_scale(wanted[i], 1))) << id;
+        }
+        for (const auto &[ends, size] : expected.facet)
+            EXPECT_THAT(cells.facet.at(ends), RoundsLike(std::ldexp(size, (D - 1) * exponent)));
+    }
+}
+
+TEST(Voronoi, CellsDoNotDependOnTheScale) {
+    for (const int exponent : {-1000, -565, -380, -270, 340, 565, 1015}) {
+        expect_same_at<2>(exponent);
+        expect_same_at<3>(exponent);
+    }
 }
 
 TEST(Voronoi, OfAnEmptyMeshAreNone) {

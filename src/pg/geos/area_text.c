@@ -37,14 +37,21 @@ refuse(const char *what, const char *detail, const char *hint)
 }
 
 static void
-require_valid(Geos *geos, const char *what, const GEOSGeometry *geometry)
+require_valid(Geos *geos, const char *what, GEOSGeometry *geometry)
 {
+	int			magnitude = geos_magnitude(geos, geometry);
+	bool		is_scaled = abs(magnitude) > GEOS_MAGNITUDE;
+
+	if (is_scaled)
+		geometry = geos_times(geos, geometry, -magnitude);
 	if (GEOSisValid_r(geos->handle, geometry) != 1)
 	{
 		char	   *reason = GEOSisValidReason_r(geos->handle, geometry);
 		char	   *detail = reason == NULL ? geos_message(geos) : pstrdup(reason);
 
 		GEOSFree_r(geos->handle, reason);
+		if (is_scaled && strchr(detail, '[') != NULL)
+			*strchr(detail, '[') = '\0';	/* a place at another scale */
 		refuse(what, detail, "Make it valid with ST_MakeValid.");
 	}
 }

@@ -3,8 +3,13 @@
  *
  * What an odd number of the rings goes around is one side, the polygon the other. Places where
  * borders cross are rounded; points of either border keep their coordinates.
+ *
+ * GEOS gets coordinates too great or too small for it times a power of two, so that its results are the
+ * same as at an ordinary scale.
  */
 #include "postgres.h"
+
+#include <math.h>
 
 #include "utils/memutils.h"
 
@@ -82,9 +87,9 @@ line_of(Geos *geos, const double *places, size_t points)
 	return GEOSGeom_createLineString_r(geos->handle, sequence);
 }
 
-/* The area that an odd number of rings goes around. */
+/* The area that an odd number of rings goes around, times a power of two. */
 static GEOSGeometry *
-area_of(Geos *geos, const RingSet *set)
+area_of(Geos *geos, const RingSet *set, int exponent)
 {
 	GEOSGeometry **lines = MemoryContextAllocHuge(CurrentMemoryContext, (set->rings + 1) * sizeof(GEOSGeometry *));
 	const double *places = set->places;
@@ -107,7 +112,7 @@ area_of(Geos *geos, const RingSet *set)
 	all = geos_keep(geos, GEOSGeom_createCollection_r(geos->handle, GEOS_MULTILINESTRING, lines, (unsigned) made));
 	geos_require(geos, all != NULL);
 	pfree(lines);
-	all = geos_keep(geos, GEOSBuildArea_r(geos->handle, all));
+	all = geos_keep(geos, GEOSBuildArea_r(geos->handle, geos_times(geos, all, exponent)));
 	geos_require(geos, all != NULL);
 	return all;
 }
@@ -154,6 +159,35 @@ add_polygons(Geos *geos, const GEOSGeometry *geometry, RingSet *set)
 	}
 }
 
+/* The exponent of the greatest coordinate. */
+static int
+magnitude_of(const RingSet *set)
+{
+	double		greatest = 0;
+
+	for (size_t i = 0; i < 2 * set->points; i++)
+		greatest = Max(greatest, fabs(set->places[i]));
+	return greatest > 0 ? ilogb(greatest) : 0;
+}
+
+/*
+ * The power of two by which rings and a polygon of these magnitudes are multiplied, so that both are far from
+ * what GEOS cannot compute with; 0 for ordinary ones.
+ */
+static int
+common_scale(int rings, int polygon)
+{
+	if (Max(abs(rings), abs(polygon)) <= GEOS_MAGNITUDE)
+		return 0;
+	if (abs(rings - polygon) > 2 * GEOS_MAGNITUDE)
+		ereport(ERROR,
+				(errcode(ERRCODE_NUMERIC_VALUE_OUT_OF_RANGE),
+				 errmsg("the coordinates of a polygon and of the mesh differ too much"),
+				 errdetail("The greatest ones are about 2^%d and 2^%d.", polygon, rings),
+				 errhint("Give a polygon whose greatest coordinate is from 1e-180 to 1e180 times that of the mesh.")));
+	return -(rings + polygon) / 2;
+}
+
 /*
  * Sets `clipped` to the rings of what is in the polygon, a text for which area_text_is() holds:
  * counterclockwise around what is inside, clockwise around a hole, from their least points on.
@@ -169,11 +203,16 @@ clip_rings(const RingSet *given, const char *polygon, RingSet *clipped)
 	geos_begin(&geos);
 	PG_TRY();
 	{
-		GEOSGeometry *common = geos_keep(&geos, GEOSIntersection_r(geos.handle, area_of(&geos, given),
-																   area_text_geometry(&geos, "within", polygon)));
+		GEOSGeometry *cutter = area_text_geometry(&geos, "within", polygon);
+		bool		is_empty = GEOSisEmpty_r(geos.handle, cutter) == 1;
+		int			exponent = is_empty ? 0 : common_scale(magnitude_of(given), geos_magnitude(&geos, cutter));
+		GEOSGeometry *common = geos_keep(&geos, GEOSIntersection_r(geos.handle, area_of(&geos, given, exponent),
+																   geos_times(&geos, cutter, exponent)));
 
 		geos_require(&geos, common != NULL && GEOSNormalize_r(geos.handle, common) == 0);
 		add_polygons(&geos, common, clipped);
+		for (size_t i = 0; i < 2 * clipped->points && exponent != 0; i++)
+			clipped->places[i] = scalbn(clipped->places[i], -exponent);
 	}
 	PG_FINALLY();
 	{

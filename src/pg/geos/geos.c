@@ -3,6 +3,8 @@
  */
 #include "postgres.h"
 
+#include <math.h>
+
 #include "miscadmin.h"
 
 #include "pg/geos/geos.h"
@@ -82,6 +84,40 @@ geos_read_hex(Geos *geos, const char *text)
 	if (reader != NULL)
 		GEOSWKBReader_destroy_r(geos->handle, reader);
 	return geos_keep(geos, geometry);
+}
+
+/* The exponent of the greatest coordinate; 0 if there is none. */
+int
+geos_magnitude(Geos *geos, const GEOSGeometry *geometry)
+{
+	double		ends[4];
+	double		greatest = 0;
+
+	if (GEOSisEmpty_r(geos->handle, geometry) == 1)
+		return 0;
+	geos_require(geos, GEOSGeom_getExtent_r(geos->handle, geometry, &ends[0], &ends[1], &ends[2], &ends[3]) == 1);
+	for (int i = 0; i < 4; i++)
+		greatest = Max(greatest, fabs(ends[i]));
+	return greatest > 0 ? ilogb(greatest) : 0;
+}
+
+static int
+scale(double *x, double *y, void *exponent)
+{
+	*x = scalbn(*x, *(int *) exponent);
+	*y = scalbn(*y, *(int *) exponent);
+	return 1;
+}
+
+/* The geometry times a power of two; itself for exponent 0. */
+GEOSGeometry *
+geos_times(Geos *geos, GEOSGeometry *geometry, int exponent)
+{
+	if (exponent == 0)
+		return geometry;
+	geometry = geos_keep(geos, GEOSGeom_transformXY_r(geos->handle, geometry, scale, &exponent));
+	geos_require(geos, geometry != NULL);
+	return geometry;
 }
 
 /* A copy of its last error. */

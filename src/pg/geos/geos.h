@@ -11,6 +11,12 @@
 
 #define GEOS_KEPT 8
 
+/*
+ * The products that GEOS makes of coordinates overflow or underflow silently where the greatest one is
+ * beyond 2^±GEOS_MAGNITUDE.
+ */
+#define GEOS_MAGNITUDE 300
+
 typedef struct Geos
 {
 	GEOSContextHandle_t handle;
@@ -25,6 +31,8 @@ extern void geos_end(Geos *geos);
 extern GEOSGeometry *geos_keep(Geos *geos, GEOSGeometry *geometry);
 extern GEOSGeometry *geos_read_text(Geos *geos, const char *text);
 extern GEOSGeometry *geos_read_hex(Geos *geos, const char *text);
+extern int	geos_magnitude(Geos *geos, const GEOSGeometry *geometry);
+extern GEOSGeometry *geos_times(Geos *geos, GEOSGeometry *geometry, int exponent);
 extern char *geos_message(const Geos *geos);
 extern void geos_require(const Geos *geos, bool holds);
 

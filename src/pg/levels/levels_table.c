@@ -124,8 +124,9 @@ levels_bound(Oid mesh, MeshAccess access, Oid **levels)
 	int			count = 0;
 
 	SPI_connect();
-	if (SPI_execute(psprintf("SELECT objid FROM pg_catalog.pg_depend WHERE classid = %u AND refclassid = %u AND refobjid = %u "
-							 "AND deptype = 'a' AND objsubid = 0 ORDER BY objid",
+	if (SPI_execute(psprintf("SELECT objid FROM pg_catalog.pg_depend WHERE classid OPERATOR(pg_catalog.=) %u "
+							 "AND refclassid OPERATOR(pg_catalog.=) %u AND refobjid OPERATOR(pg_catalog.=) %u "
+							 "AND deptype OPERATOR(pg_catalog.=) 'a' AND objsubid OPERATOR(pg_catalog.=) 0 ORDER BY objid",
 							 RelationRelationId, RelationRelationId, mesh), access == MESH_READ, 0) != SPI_OK_SELECT)
 		elog(ERROR, "could not read the dependencies of a mesh: %s", SPI_result_code_string(SPI_result));
 	*levels = MemoryContextAlloc(caller, (SPI_processed + 1) * sizeof(Oid));

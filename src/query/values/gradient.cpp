@@ -6,6 +6,7 @@
 #include "geometry/rational.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace abacus {
 
@@ -79,12 +80,13 @@ template <int D> bool is_level(const abacus_simplex &simplex, const double *valu
     return orientation<D>(corners) == 0;
 }
 
-template <int D> double exact_part(const abacus_simplex &simplex, const double *values, int axis) {
+template <int D>
+exact::Rational exact_part(const abacus_simplex &simplex, const double *values, int axis) {
     using exact::Rational;
     const auto system = gradient_system<Rational, D>(simplex, values);
     const Rational whole = system.determinant(system.matrix);
     if (whole == 0) throw_corrupted("A simplex is flat.");
-    return exact::nearest_double(Rational(system.with_right_side(axis) / whole));
+    return system.with_right_side(axis) / whole;
 }
 
 } // namespace
@@ -102,14 +104,33 @@ template <int D> Point<D> gradient_in(const abacus_simplex &simplex, const doubl
         else if (!part.is_sure() && is_level<D>(simplex, values, axis))
             gradient[axis] = 0;
         else
-            gradient[axis] = exact_part<D>(simplex, values, axis);
+            gradient[axis] = exact::nearest_double(exact_part<D>(simplex, values, axis));
     }
     return gradient;
 }
 
 template <int D>
+int scaled_gradient_in(const abacus_simplex &simplex, const double *values, Point<D> &gradient) {
+    gradient = gradient_in<D>(simplex, values);
+    double most = 0;
+    for (const double x : gradient) most = std::max(most, std::fabs(x));
+    const bool is_ordinary = most > 1e-280 && std::isfinite(most);
+    if (is_ordinary || std::all_of(values, values + D, [&](double x) { return x == values[D]; }))
+        return 0;
+    std::array<ScaledNumber, D> parts;
+    int exponent = std::numeric_limits<int>::min();
+    for (int axis = 0; axis < D; ++axis) {
+        parts[axis] = exact::scaled(exact_part<D>(simplex, values, axis));
+        if (parts[axis].value != 0) exponent = std::max(exponent, parts[axis].exponent);
+    }
+    for (int axis = 0; axis < D; ++axis)
+        gradient[axis] = std::ldexp(parts[axis].value, parts[axis].exponent - exponent);
+    return exponent;
+}
+
+template <int D>
 bool gradient_at(Reader<D> &reader, const abacus_interpolation &what, const Point<D> &p,
-                 double *gradient) {
+                 double *gradient, int *exponent) {
     abacus_simplex simplex;
     CornerValues carried(what.attribute, 1);
     if (!reader.locate(p, simplex, &carried, what.extent)) return false;
@@ -121,14 +142,22 @@ bool gradient_at(Reader<D> &reader, const abacus_interpolation &what, const Poin
     }
     Point<D> result;
     result.fill(NAN);
-    if (is_finite) result = gradient_in<D>(simplex, values.data());
+    if (exponent != nullptr) *exponent = 0;
+    if (is_finite && exponent != nullptr)
+        *exponent = scaled_gradient_in<D>(simplex, values.data(), result);
+    else if (is_finite)
+        result = gradient_in<D>(simplex, values.data());
     std::copy(result.begin(), result.end(), gradient);
     return true;
 }
 
 template Point<2> gradient_in<2>(const abacus_simplex &, const double *);
 template Point<3> gradient_in<3>(const abacus_simplex &, const double *);
-template bool gradient_at<2>(Reader<2> &, const abacus_interpolation &, const Point<2> &, double *);
-template bool gradient_at<3>(Reader<3> &, const abacus_interpolation &, const Point<3> &, double *);
+template int scaled_gradient_in<2>(const abacus_simplex &, const double *, Point<2> &);
+template int scaled_gradient_in<3>(const abacus_simplex &, const double *, Point<3> &);
+template bool gradient_at<2>(Reader<2> &, const abacus_interpolation &, const Point<2> &, double *,
+                             int *);
+template bool gradient_at<3>(Reader<3> &, const abacus_interpolation &, const Point<3> &, double *,
+                             int *);
 
 } // namespace abacus

@@ -109,7 +109,7 @@ find_range(FunctionCallInfo fcinfo, int attribute, const Tiles *tiles, double *r
 	if (!PG_ARGISNULL(TILES_STEP))
 		isnull = !step_range(PG_GETARG_OID(TILES_MESH), PG_GETARG_INT64(TILES_STEP), attribute, range);
 	else
-		run(psprintf("SELECT least, greatest FROM %s.abacus_attributes(%s) WHERE name = %s",
+		run(psprintf("SELECT least, greatest FROM %s.abacus_attributes(%s) WHERE name OPERATOR(pg_catalog.=) %s",
 				 tiles->extension, tiles->mesh, tiles->attribute));
 	for (int i = 0; PG_ARGISNULL(TILES_STEP) && i < 2 && SPI_processed == 1; i++)
 	{

@@ -38,9 +38,12 @@ require_plane(FunctionCallInfo fcinfo)
 								 "In space, use abacus_gradient().");
 }
 
-/* Sets the gradient and returns the number of its components; 0 if there is none. */
+/*
+ * Sets the gradient and returns the number of its components; 0 if there is none. If `exponent` is not null, the
+ * gradient is to be multiplied by 2^exponent.
+ */
 static int
-find_gradient(FunctionCallInfo fcinfo, double *gradient)
+find_gradient(FunctionCallInfo fcinfo, double *gradient, int *exponent)
 {
 	int			first = PG_NARGS() - HOW_ARGUMENTS;
 	double		point[ABACUS_MAX_DIMENSION];
@@ -57,7 +60,7 @@ find_gradient(FunctionCallInfo fcinfo, double *gradient)
 	units_tell_slopes(&cached->header.facts.form);
 	if (!place_arguments(fcinfo, first - 1, &cached->header.facts.form, point))
 		return 0;
-	status = host_run(cached->host, abacus_mesh_gradient, cached->mesh, &how, point, gradient);
+	status = host_run(cached->host, abacus_mesh_gradient, cached->mesh, &how, point, gradient, exponent);
 	host_release(cached->host);
 	return status == ABACUS_END || isnan(gradient[0]) ? 0 : (int) cached->dimension;
 }
@@ -72,7 +75,7 @@ abacus_sql_gradient(PG_FUNCTION_ARGS)
 	double		gradient[ABACUS_MAX_DIMENSION];
 	int			count;
 
-	count = find_gradient(fcinfo, gradient);
+	count = find_gradient(fcinfo, gradient, NULL);
 	if (count == 0)
 		PG_RETURN_NULL();
 	PG_RETURN_DATUM(attribute_array(gradient, count));
@@ -101,15 +104,16 @@ abacus_sql_slope(PG_FUNCTION_ARGS)
 {
 	double		gradient[ABACUS_MAX_DIMENSION];
 	double		steepness;
+	int			exponent;
 	Datum		values[2];
 	bool		isnull[2] = {false, false};
 
 	require_plane(fcinfo);
-	if (find_gradient(fcinfo, gradient) == 0)
+	if (find_gradient(fcinfo, gradient, &exponent) == 0)
 		PG_RETURN_NULL();
 	steepness = hypot(gradient[0], gradient[1]);
 	isnull[1] = steepness == 0; /* level ground faces nowhere */
-	values[0] = Float8GetDatum(atan(steepness) * (180 / M_PI));
+	values[0] = Float8GetDatum(atan(scalbn(steepness, exponent)) * (180 / M_PI));
 	values[1] = Float8GetDatum(downhill(gradient));
 	PG_RETURN_DATUM(HeapTupleGetDatum(heap_form_tuple(result_row_type(fcinfo), values, isnull)));
 }
