@@ -178,7 +178,8 @@ inline ScaledNumber triangle_area(const Point<3> &a, const Point<3> &b, const Po
     const double square = x * x + y * y + z * z;
     if (square > 1e-250 && std::isfinite(square)) [[likely]]
         return {std::sqrt(square) / 2, 0};
-    ScaledNumber area = std::apply(length, normal(scaled_difference));
+    ScaledNumber area =
+        std::apply([](auto... parts) { return length(parts...); }, normal(scaled_difference));
     --area.exponent;
     return area;
 }

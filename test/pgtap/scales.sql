@@ -29,7 +29,7 @@ SELECT results_eq(format('EXECUTE corners(%L, %s)', 'm' || n, power), 'EXECUTE c
 FROM (VALUES (1, 104), (2, 200), (3, 300), (4, -110), (5, -170), (6, -290)) AS s (n, power);
 SELECT results_eq('EXECUTE corners(''m0'', 0)', 'VALUES (1::bigint, NULL::bigint, 1.000, 1.000), (2, NULL, 4, 1), (3, NULL, 4, 1.75), (4, NULL, 2.333, 3), (5, NULL, 1, 3)', 'its corners');
 SELECT results_eq(format('EXECUTE bands(%L, %s)', 'm' || n, power), 'EXECUTE bands(''m0'', 0)', 'bands in a polygon at 1e' || power)
-FROM (VALUES (1, 104), (2, 200), (3, 300), (4, -110)) AS s (n, power);
+FROM (VALUES (1, 104), (2, 200), (3, 300), (4, -110), (5, -170), (6, -290)) AS s (n, power);
 SELECT is((SELECT count(*) FROM abacus_hull(mesh, within => polygon)), corners::bigint, mesh || ' in ' || polygon)
 FROM (VALUES ('m5', pg_temp.polygon(0, -1, -1, 1, -1, 1, 1, -1, 1, -1, -1), 4), ('m3', pg_temp.polygon(307, -9, -9, 9, -9, 9, 9, -9, 9, -9, -9), 4),
              ('m2', 'POLYGON EMPTY', 0)) AS f (mesh, polygon, corners);
