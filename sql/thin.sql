@@ -151,5 +151,7 @@ CREATE TABLE thin_points AS SELECT i AS id, (i * 0.7548776662466927) % 1 AS x, (
 SELECT abacus_triangulate('thin_rough', 'TABLE thin_points');
 SET maintenance_work_mem = '1MB';
 SELECT abacus_thin('thin_rough', 'thin_smooth', 0.3) > 0 AS thinned;
+SELECT abacus_triangulate('thin_gaps', 'SELECT id, x, y, CASE WHEN id % 10 = 0 THEN h END AS h FROM thin_points');
+SELECT abacus_thin('thin_gaps', 'thin_few', 0.3) > 0 AS thinned;
 RESET maintenance_work_mem;
-DROP TABLE thin_rough, thin_smooth, thin_points;
+DROP TABLE thin_rough, thin_smooth, thin_gaps, thin_few, thin_points;

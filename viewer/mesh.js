@@ -61,7 +61,7 @@ export class Mesh {
     /** What pages need to know of the mesh. The ranges of attributes are in all of its points, so each state of it is read once. */
     async describe(query) {
         const [{ etag }] = await query(this.queries.etag);
-        if (this.states.has(etag)) return this.states.get(etag);
+        if (this.states.has(etag)) return this.keep(etag, this.states.get(etag));
         if (query.learns) throw new Unknown(this);
         const [{ name, stats, attributes, labels, extent, srid: own }] = await query(this.queries.info, [], { isLong: true });
         const lower = extent.slice(0, this.dimension), upper = extent.slice(3, 3 + this.dimension);
@@ -72,6 +72,12 @@ export class Mesh {
             ...(map.srid && this.options.baseMap && { baseMap: this.options.baseMap, credit: this.options.credit }),
             ...(!this.options.mesh && { isOneOfMany: true }),
             edit: Boolean(this.options.edit && stats.changeable) };
+        return this.keep(etag, known);
+    }
+
+    /** Keeps a state, and forgets the one that nobody has asked about for longest. */
+    keep(etag, known) {
+        this.states.delete(etag);
         this.states.set(etag, known);
         if (this.states.size > mostStates) this.states.delete(this.states.keys().next().value);
         return known;
@@ -113,7 +119,7 @@ export class Meshes {
     }
 
     async open(oid, signal) {
-        const mesh = this.known.get(oid) ?? await Mesh.open(this.database, this.options, oid, signal);
+        const opened = this.known.get(oid) ?? await Mesh.open(this.database, this.options, oid, signal), mesh = this.known.get(oid) ?? opened;
         this.known.delete(oid);
         this.known.set(oid, mesh);
         if (this.known.size > mostKnown) this.known.delete(this.known.keys().next().value);

@@ -120,8 +120,14 @@ async function read(response, url, path, { mesh, onto }, reading) {
     json(response, await reading(async (query) => reads[name](new Parameters(url.searchParams), query, await mesh.describe(query), onto?.oid)));
 }
 
+/** The mesh as the session sees it. */
+function described(mesh, token, signal) {
+    const attempt = (learns) => mesh.database.read(token, (query) => mesh.describe(mesh.about(query, learns)), signal);
+    return mesh.database.isEditing(token) ? attempt() : knowing(attempt, signal);
+}
+
 /** The session of a page that edits, and what it asks of it. */
-async function edit(request, response, path, mesh, token) {
+async function edit(request, response, path, mesh, token, signal) {
     const { database } = mesh, name = path.slice("/edit/".length);
     const given = await body(request); // JSON, which no form of another site can send
     if (!database.edit) throw new Refused(403, "the viewer was started without --edit");
@@ -132,7 +138,7 @@ async function edit(request, response, path, mesh, token) {
     try {
         if (name === "save" || name === "undo" || name === "back") return json(response, { changes: await session[name]() });
         if (name === "end") return json(response, (await session.close(), {}));
-        const task = change(name, given, await mesh.read(session.token, (query) => mesh.describe(query)));
+        const task = change(name, given, await described(mesh, session.token, signal));
         json(response, { changes: await session.change((query) => task(mesh.about(query))) });
     } catch (error) {
         throw Object.assign(error, { changes: session.changes });
@@ -187,7 +193,7 @@ function handler(places, options, hosts) {
             if (path.startsWith("/edit/")) {
                 if (request.method !== "POST") throw new Refused(405, "only POST is allowed here");
                 if (!mesh) throw new Refused(404, "not found");
-                return await edit(request, response, path, mesh, token);
+                return await edit(request, response, path, mesh, token, gone.signal);
             }
             if (request.method !== "GET") throw new Refused(405, "only GET is allowed here");
             if (!mesh && path === "/api/meshes") return json(response, await places.meshes.list(gone.signal));

@@ -78,7 +78,11 @@ template <int D> double measure(const Piece<D> &piece) { return rounded(scaled_m
 template <int D> double mean(const Piece<D> &piece) {
     double sum = 0;
     for (const double value : piece.value) sum += value;
-    return sum / (D + 1);
+    if (std::isfinite(sum)) [[likely]]
+        return sum / (D + 1);
+    sum = 0;
+    for (const double value : piece.value) sum += value / (D + 1);
+    return sum;
 }
 
 /// The corners of a piece by the side of a linear function on which they are.

@@ -8,7 +8,7 @@
 
 namespace abacus {
 
-/// A number of any size: value * 2^exponent.
+/// A number of any size: value * 2^exponent. The value is an ordinary double.
 struct ScaledNumber {
     double value;
     int exponent;
@@ -28,10 +28,12 @@ inline ScaledNumber scaled_difference(double a, double b) {
 inline double rounded(const ScaledNumber &a) { return std::ldexp(a.value, a.exponent); }
 
 inline ScaledNumber operator*(const ScaledNumber &a, const ScaledNumber &b) {
-    return scaled(a.value * b.value, a.exponent + b.exponent);
+    const ScaledNumber x = scaled(a.value, a.exponent), y = scaled(b.value, b.exponent);
+    return scaled(x.value * y.value, x.exponent + y.exponent);
 }
 inline ScaledNumber operator/(const ScaledNumber &a, const ScaledNumber &b) {
-    return {a.value / b.value, a.exponent - b.exponent};
+    const ScaledNumber x = scaled(a.value, a.exponent), y = scaled(b.value, b.exponent);
+    return {x.value / y.value, x.exponent - y.exponent};
 }
 inline ScaledNumber operator+(const ScaledNumber &a, const ScaledNumber &b) {
     if (a.value == 0) return b;

@@ -384,6 +384,7 @@ std::uint64_t Thinning<D>::count_without_value(const Host &source_host,
         count += std::equal(before.begin(), before.end(), words) ? 0 : 1;
         std::copy_n(words, D, before.begin());
     }
+    places.close();
     return count;
 }
 

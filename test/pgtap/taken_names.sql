@@ -101,8 +101,11 @@ SELECT is(pg_temp.parts('held.tree'), 'held.tree_vertices', 'an octree is bound 
 SELECT pg_temp.forget('held.lined');
 ALTER TABLE held.lined_lines OWNER TO pgtap_names_other;
 SELECT throws_ok($$SELECT * FROM abacus_lines('held.lined')$$, '42P01', NULL, 'a restored table of another owner is not the mesh''s');
+SELECT abacus_set_srid('held.lined', abacus_srid('held.lined'));
 ALTER TABLE held.lined_lines OWNER TO pgtap_names_owner;
-SELECT is(count(*), 5::bigint, 'of the same owner it is') FROM abacus_lines('held.lined');
+SELECT is(count(*), 5::bigint, 'of the same owner it is, also after a change') FROM abacus_lines('held.lined');
+SELECT abacus_set_srid('held.lined', abacus_srid('held.lined'));
+SELECT is(pg_temp.parts('held.lined'), 'held.lined_level_1 held.lined_levels held.lined_lines held.lined_regions held.lined_vertices', 'then all are bound');
 
 SELECT * FROM finish();
 ROLLBACK;

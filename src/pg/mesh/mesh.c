@@ -274,6 +274,15 @@ find_rows_table(Oid mesh, const SideTable *side, bool *bound)
 	return OidIsValid(relid) && mesh_table_owner(relid) == mesh_table_owner(mesh) ? relid : InvalidOid;
 }
 
+/* Whether there is such a table that would be the mesh's if it had the mesh's owner. */
+static bool
+is_foreign(Oid mesh, const SideTable *side)
+{
+	Oid			relid = find_named_table(mesh, side);
+
+	return OidIsValid(relid) && mesh_table_owner(relid) != mesh_table_owner(mesh);
+}
+
 /* The vertex table of a mesh, unlocked and unchecked; InvalidOid if there is none. */
 Oid
 mesh_find_vertex_table(Oid mesh)
@@ -369,12 +378,21 @@ mesh_vertex_table(Relation mesh, MeshAccess access)
 	relid = RelationGetRelid(rel);
 	if (!bound && may_bind(mesh, relid, access))
 	{
-		for (int i = 0; i < lengthof(row_sides); i++) /* these first: see find_rows_table() */
+		bool		is_whole = true;
+
+		/* these first: see find_rows_table(); while one has another owner, names still count */
+		for (int i = 0; i < lengthof(row_sides); i++)
+		{
 			(void) mesh_rows_table(mesh, (SideRows) i, access);
-		mesh_bind_table(RelationGetRelid(mesh), relid);
-		CommandCounterIncrement();	/* lets others see what is bound */
-		if (on_restored != NULL)
-			on_restored(mesh);
+			is_whole = is_whole && !is_foreign(RelationGetRelid(mesh), &row_sides[i]);
+		}
+		if (is_whole)
+		{
+			mesh_bind_table(RelationGetRelid(mesh), relid);
+			CommandCounterIncrement();	/* lets others see what is bound */
+			if (on_restored != NULL)
+				on_restored(mesh);
+		}
 	}
 	relation_close(rel, NoLock);
 	return relid;
