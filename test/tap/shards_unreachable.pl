@@ -1,5 +1,5 @@
 # A server of a mesh over several servers that is cut off: it neither answers nor takes connections, as if the
-# network were gone. Whoever reads can cancel that at once. A process between coordinator and server plays the
+# network were gone. A reader can cancel that at once. A process between coordinator and server plays the
 # network: at SIGUSR1 it passes nothing on any more, and its queue of connections is full.
 use strict;
 use warnings;
@@ -19,7 +19,7 @@ $node->start;
 # Passes bytes on between pairs of sockets.
 sub relay
 {
-	my ($listener, $server) = @_;
+	my ($listener, $server, $done) = @_;
 	my ($is_cut, %other) = (0);
 	local $SIG{USR1} = sub { $is_cut = 1 };
 	my $sockets = IO::Select->new($listener);
@@ -46,15 +46,17 @@ sub relay
 		}
 	}
 	my @waiting = map { IO::Socket::INET->new(PeerAddr => $listener->sockhost, PeerPort => $listener->sockport, Blocking => 0) } 1 .. 4;
+	append_to_file($done, 'cut');
 	sleep 600;
 	return;
 }
 
 my $listener = IO::Socket::INET->new(Listen => 1, LocalAddr => '127.0.0.1') or die "no socket: $!";
+my $done = $node->data_dir . '/network_is_cut';
 my $network = fork;
 if (!$network)
 {
-	relay($listener, $node->host . '/.s.PGSQL.' . $node->port);
+	relay($listener, $node->host . '/.s.PGSQL.' . $node->port, $done);
 	exit;
 }
 END { kill 'KILL', $network if $network }
@@ -75,10 +77,11 @@ $node->safe_psql('postgres', "SELECT abacus_shard_create('mesh', '{near,far}');
 my ($out, $err);
 my $begin = time;
 my $read = "SELECT count(*) FROM abacus_cells('mesh')";
-$node->psql('postgres', "BEGIN; $read; COPY (SELECT) TO PROGRAM 'kill -USR1 $network'; SELECT pg_sleep(1);
+$node->psql('postgres', "BEGIN; $read; COPY (SELECT) TO PROGRAM 'kill -USR1 $network';
+	DO \$\$ BEGIN WHILE pg_stat_file('$done', true) IS NULL LOOP PERFORM pg_sleep(0.1); END LOOP; END \$\$;
 	SET LOCAL statement_timeout = '1s'; $read; ROLLBACK; SET statement_timeout = '1s'; $read; RESET statement_timeout; SELECT 'goes on'",
 	stdout => \$out, stderr => \$err, on_error_stop => 0);
 like($out, qr/^39\d\d\n.*goes on$/s, 'the mesh is read before, and the session goes on');
-is(() = $err =~ /canceling statement due to statement timeout/g, 2, 'a reader is cancelled, who waits for an answer, or for a connection');
+is(() = $err =~ /canceling statement due to statement timeout/g, 2, 'a reader is cancelled, who waits for an answer, or for a connection') or diag($err);
 cmp_ok(time - $begin, '<', 60, 'soon'); # to connect would take the system two minutes
 done_testing();
