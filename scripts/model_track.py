@@ -356,6 +356,7 @@ class World:
         if self.with_points:
             sync.append("SELECT abacus_track('mesh', 'points');")
         self.run(" ".join(sync))
+        self.fresh() # time may be over before the first step
         self.compare()
 
     def close(self, keep):
