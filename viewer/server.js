@@ -120,10 +120,10 @@ async function read(response, url, path, { mesh, onto }, reading) {
     json(response, await reading(async (query) => reads[name](new Parameters(url.searchParams), query, await mesh.describe(query), onto?.oid)));
 }
 
-/** The mesh as the session sees it. */
-function described(mesh, token, signal) {
-    const attempt = (learns) => mesh.database.read(token, (query) => mesh.describe(mesh.about(query, learns)), signal);
-    return mesh.database.isEditing(token) ? attempt() : knowing(attempt, signal);
+/** What task(query, learns) reads of the state that the session sees: its own, or the saved one, of which more may have to be learnt. */
+function readState({ database }, token, task, signal) {
+    const attempt = (learns) => database.read(token, (query) => task(query, learns), signal);
+    return database.isEditing(token) ? attempt() : knowing(attempt, signal);
 }
 
 /** The session of a page that edits, and what it asks of it. */
@@ -138,7 +138,7 @@ async function edit(request, response, path, mesh, token, signal) {
     try {
         if (name === "save" || name === "undo" || name === "back") return json(response, { changes: await session[name]() });
         if (name === "end") return json(response, (await session.close(), {}));
-        const task = change(name, given, await described(mesh, session.token, signal));
+        const task = change(name, given, await readState(mesh, session.token, (query, learns) => mesh.describe(mesh.about(query, learns)), signal));
         json(response, { changes: await session.change((query) => task(mesh.about(query))) });
     } catch (error) {
         throw Object.assign(error, { changes: session.changes });
@@ -199,8 +199,7 @@ function handler(places, options, hosts) {
             if (!mesh && path === "/api/meshes") return json(response, await places.meshes.list(gone.signal));
             if (!mesh) return await sendFile(response, path, "list");
             const of = url.searchParams.get("of"), what = of === null ? { mesh } : { mesh: await places.other(of, gone.signal), onto: mesh };
-            const attempt = (task, learns) => mesh.database.read(token, (query) => task(what.mesh.about(query, learns), query), gone.signal);
-            const reading = (task) => (mesh.database.isEditing(token) ? attempt(task) : knowing((learns) => attempt(task, learns), gone.signal));
+            const reading = (task) => readState(mesh, token, (query, learns) => task(what.mesh.about(query, learns), query), gone.signal);
             if (path.startsWith("/tiles/")) return await sendTile(request, response, url, path, what, reading);
             if (path.startsWith("/globe/")) return await sendGlobe(request, response, url, path, mesh, reading);
             if (path.startsWith("/pictures/")) return await sendDrawing(request, response, url, path, what.mesh, reading);
