@@ -28,6 +28,18 @@ unpack_postgis() {
     done
 }
 
+# unpack_r [NAME=VERSION...]: R 4.2.2 and these packages of it, for `run_r FILE`. R is told where it lies.
+unpack_r() {
+    unpack r-base-core=4.2.2.20221110-2 "$@"
+    rm -r "$tmp/usr/lib/R/etc"
+    cp -rL "$tmp/etc/R" "$tmp/usr/lib/R/etc"
+    sed -i "s:/usr/lib/R:$tmp/usr/lib/R:; s:/usr/share/R:$tmp/usr/share/R:" "$tmp/usr/lib/R/bin/R"
+}
+run_r() {
+    EDITOR=vi PAGER=cat R_HOME=$tmp/usr/lib/R LD_LIBRARY_PATH=$libraries:$tmp/usr/lib/R/lib \
+        R_LIBS=$tmp/usr/lib/R/site-library:$tmp/usr/lib/R/library "$tmp/usr/lib/R/bin/R" --vanilla --no-echo -f "$1" 2>"$tmp/errors"
+}
+
 # start_server: a server of the PostgreSQL 15 in $tmp, whose socket is there; no root may run it.
 start_server() {
     PATH=$tmp/usr/lib/postgresql/15/bin:$PATH
