@@ -33,11 +33,13 @@ unpack_r() {
     unpack r-base-core=4.2.2.20221110-2 "$@"
     rm -r "$tmp/usr/lib/R/etc"
     cp -rL "$tmp/etc/R" "$tmp/usr/lib/R/etc"
+    touch "$tmp/usr/lib/R/etc/Renviron"
     sed -i "s:/usr/lib/R:$tmp/usr/lib/R:; s:/usr/share/R:$tmp/usr/share/R:" "$tmp/usr/lib/R/bin/R"
 }
 run_r() {
     EDITOR=vi PAGER=cat R_HOME=$tmp/usr/lib/R LD_LIBRARY_PATH=$libraries:$tmp/usr/lib/R/lib \
-        R_LIBS=$tmp/usr/lib/R/site-library:$tmp/usr/lib/R/library "$tmp/usr/lib/R/bin/R" --vanilla --no-echo -f "$1" 2>"$tmp/errors"
+        R_LIBS=$tmp/usr/lib/R/site-library:$tmp/usr/lib/R/library "$tmp/usr/lib/R/bin/R" --vanilla --no-echo -f "$1" 2>"$tmp/errors" |
+        sed 's/ *$//'
 }
 
 # start_server: a server of the PostgreSQL 15 in $tmp, whose socket is there; no root may run it.
