@@ -107,5 +107,50 @@ SELECT is(count(*), 5::bigint, 'of the same owner it is, also after a change') F
 SELECT abacus_set_srid('held.lined', abacus_srid('held.lined'));
 SELECT is(pg_temp.parts('held.lined'), 'held.lined_level_1 held.lined_levels held.lined_lines held.lined_regions held.lined_vertices', 'then all are bound');
 
+-- tables that were restored alone, beside a mesh that has its others
+SET ROLE pgtap_names_owner;
+SELECT abacus_store('held.lined', 1, 1, 0, $$SELECT id, x FROM abacus_share_vertices('held.lined', 1, 0, 0)$$);
+RESET ROLE;
+SELECT pg_temp.parts('held.lined') AS parts \gset
+DELETE FROM pg_depend WHERE classid = 'pg_class'::regclass AND refobjid = 'held.lined'::regclass AND deptype = 'a'
+	AND objid IN ('held.lined_lines'::regclass, 'held.lined_regions'::regclass, 'held.lined_steps'::regclass, 'held.lined_levels'::regclass);
+SET ROLE pgtap_names_owner;
+SELECT throws_ok($$SELECT * FROM abacus_lines('held.lined')$$, '42P01', NULL, 'a table that was restored alone is not found by its name');
+SELECT throws_ok($$SELECT abacus_constrain('held.lined', 'VALUES (2, 1, 1), (2, 2, 5)')$$, '42P01', NULL, 'lines are not added beside those that are missing');
+SELECT throws_ok($$SELECT abacus_level('held.lined', 10)$$, '55000', NULL, 'nor are levels');
+SELECT throws_ok($$SELECT abacus_levels('held.lined', '{9}')$$, '42P07', NULL, 'others are not made beside them');
+SELECT is_empty($$SELECT * FROM abacus_steps('held.lined')$$, 'nor are steps');
+SELECT abacus_set_srid('held.lined', abacus_srid('held.lined'));
+RESET ROLE;
+SELECT is(pg_temp.parts('held.lined'), :'parts', 'setting the SRID that the mesh has binds them again');
+SET ROLE pgtap_names_owner;
+SELECT is(count(*), 5::bigint, 'their lines are there') FROM abacus_lines('held.lined');
+SELECT is(abacus_level('held.lined', 10), 'held.lined_level_1'::regclass, 'their level is');
+SELECT results_eq($$SELECT step FROM abacus_steps('held.lined')$$, 'VALUES (1::bigint)', 'their step is');
+SELECT is_empty($$SELECT * FROM abacus_check('held.lined')$$, 'the mesh is sound');
+DROP TABLE held.lined_lines;
+SELECT throws_ok($$SELECT abacus_constrain('held.lined', 'VALUES (2, 1, 1), (2, 2, 5)')$$, '42P01', NULL, 'lines are not added to those that were dropped');
+SELECT throws_ok($$SELECT abacus_unconstrain('held.lined', 'VALUES (1)')$$, '42P01', NULL, 'nor taken from them');
+
+-- what an earlier mesh has left is not adopted for lines that the mesh does not have
+CREATE TABLE held.field_regions OF abacus_region_part;
+SELECT abacus_set_srid('held.field', abacus_srid('held.field'));
+SELECT is_empty($$SELECT * FROM abacus_regions('held.field')$$, 'a mesh without regions takes no table of regions');
+RESET ROLE;
+SELECT unalike(pg_temp.parts('held.field'), '%regions%', 'nor is it bound');
+
+-- the vertex table of a level, made by another role
+SELECT pg_temp.forget('held.field_level_1');
+ALTER TABLE held.field_level_1_vertices OWNER TO pgtap_names_other;
+SET ROLE pgtap_names_other;
+CREATE TRIGGER told BEFORE INSERT OR DELETE ON held.field_level_1_vertices FOR EACH STATEMENT EXECUTE FUNCTION held.tell();
+GRANT ALL ON held.field_level_1_vertices TO PUBLIC;
+RESET ROLE;
+SELECT throws_ok($$SELECT abacus_levels_refresh('held.field')$$, '42P01', NULL, 'a vertex table of another owner is not taken');
+ALTER TABLE held.field_level_1_vertices OWNER TO pgtap_names_owner;
+ALTER TABLE held.field_level_1 OWNER TO pgtap_names_other;
+SELECT throws_ok($$SELECT abacus_levels_refresh('held.field')$$, '42501', NULL, 'nor a level of another owner');
+SELECT is_empty('TABLE ran', 'no trigger of another has run');
+
 SELECT * FROM finish();
 ROLLBACK;

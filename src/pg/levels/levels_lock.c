@@ -11,6 +11,7 @@
 #include "utils/lsyscache.h"
 
 #include "pg/levels/levels_lock.h"
+#include "pg/mesh/notices.h"
 
 /*
  * The table of a mesh's levels, and the levels that are bound to the mesh, kept from others who make them
@@ -31,6 +32,8 @@ levels_lock(Oid mesh, Oid **bound, int *bound_count)
 	table_close(rel, NoLock);
 	CommandCounterIncrement();
 	*bound_count = levels_bound(mesh, MESH_WRITE, bound);
+	if (!OidIsValid(table))
+		(void) notice_namesake(mesh, MESH_LEVELS);
 	if (!OidIsValid(table) && *bound_count == 0)
 		ereport(ERROR,
 				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
@@ -64,6 +67,11 @@ levels_lock_each(Oid mesh, const Level *levels, int count, const Oid *bound, int
 					(errcode(ERRCODE_UNDEFINED_TABLE),
 					 errmsg("level %d of mesh \"%s\" no longer exists", levels[i].number, get_rel_name(mesh)),
 					 errhint(ANEW_HINT)));
+		if (mesh_table_owner(levels[i].mesh) != mesh_table_owner(mesh))
+			ereport(ERROR,
+					(errcode(ERRCODE_INSUFFICIENT_PRIVILEGE),
+					 errmsg("level %d of mesh \"%s\" has another owner", levels[i].number, get_rel_name(mesh)),
+					 errhint("Give \"%s\" and its tables the owner of the mesh.", get_rel_name(levels[i].mesh))));
 		if (!is_among(levels[i].mesh, bound, bound_count))
 			ereport(ERROR,
 					(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),

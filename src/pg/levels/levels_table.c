@@ -20,6 +20,7 @@
 #include "pg/levels/levels_table.h"
 #include "pg/mesh/lines_table.h"
 #include "pg/mesh/new_table.h"
+#include "pg/mesh/notices.h"
 #include "pg/port/port.h"
 
 /* Columns of a query for levels, from 1 as SPI counts. */
@@ -262,10 +263,13 @@ levels_choose(Oid mesh, double max_error, const char *attribute)
 	count = OidIsValid(table) ? levels_read(table, MESH_READ, &levels) : 0;
 	table_close(rel, NoLock);
 	if (count == 0)
+	{
+		(void) notice_namesake(mesh, MESH_LEVELS);
 		ereport(ERROR,
 				(errcode(ERRCODE_OBJECT_NOT_IN_PREREQUISITE_STATE),
 				 errmsg("mesh \"%s\" has no levels", get_rel_name(mesh)),
 				 errhint("Make them with abacus_levels(), or leave out the error that is allowed.")));
+	}
 	for (int i = 0; i < count; i++)
 		if (levels[i].greatest <= max_error)
 			chosen = &levels[i];

@@ -304,7 +304,7 @@ uint64
 new_lines_add(Change *change, Source *source, const char *vertices, const char *kind,
 			  ExistingLines existing, const char *z, const NewPoints *points)
 {
-	Oid			table = mesh_rows_table(mesh_of(change), MESH_LINES, MESH_WRITE);
+	Oid			table = lines_table_of(mesh_of(change), change->writer.header->facts.census.lines);
 	NewLines	lines = {
 		.vertices = vertices,
 		.reading = {abacus_names_of(change->writer.header), z, NULL},

@@ -102,7 +102,14 @@ lines_table_require(Relation mesh, MeshAccess access)
 				 errmsg("mesh \"%s\" has lines, but no table of lines", RelationGetRelationName(mesh)),
 				 errdetail("There is no table \"%s" LINES_TABLE_SUFFIX "\" of type %s beside it that has its owner.",
 						   RelationGetRelationName(mesh), LINE_POINT_TYPE),
-				 errhint("After a restore, give the table of lines that name; if it is lost, "
-						 "restore it from a backup.")));
+				 errhint("After a restore, give the table of lines that name and the owner of the mesh, and call "
+						 "abacus_set_srid() with the SRID that the mesh has; if it is lost, restore it from a backup.")));
 	return table;
+}
+
+/* The table of a mesh with so many lines, which must be there if there are some; InvalidOid if there is none. */
+Oid
+lines_table_of(Relation mesh, uint64 lines)
+{
+	return lines > 0 ? lines_table_require(mesh, MESH_WRITE) : mesh_rows_table(mesh, MESH_LINES, MESH_WRITE);
 }

@@ -20,7 +20,6 @@
 #include "access/relation.h"
 #include "access/table.h"
 #include "access/xact.h"
-#include "catalog/dependency.h"
 #include "catalog/objectaddress.h"
 #include "catalog/pg_class.h"
 #include "catalog/pg_trigger.h"
@@ -36,6 +35,7 @@
 
 #include "pg/base/dependency.h"
 #include "pg/mesh/mesh.h"
+#include "pg/mesh/notices.h"
 #include "pg/mesh/mesh_access.h"
 #include "pg/port/port.h"
 
@@ -59,21 +59,6 @@ is_row_type(Oid type, const char *name, Oid *known)
 		return false;
 	*known = type;
 	return true;
-}
-
-/* The owner of any table; InvalidOid if it no longer exists. */
-Oid
-mesh_table_owner(Oid relid)
-{
-	HeapTuple	tuple = SearchSysCache1(RELOID, ObjectIdGetDatum(relid));
-	Oid			owner = InvalidOid;
-
-	if (HeapTupleIsValid(tuple))
-	{
-		owner = ((Form_pg_class) GETSTRUCT(tuple))->relowner;
-		ReleaseSysCache(tuple);
-	}
-	return owner;
 }
 
 /* Called when the owner of a restored mesh writes to it for the first time. */
@@ -246,6 +231,18 @@ find_named_table(Oid mesh, const SideTable *side)
 }
 
 /*
+ * The same that may be the mesh's. A table of another owner is not: its triggers would run as the one who
+ * changes the mesh.
+ */
+static Oid
+find_own_table(Oid mesh, const SideTable *side)
+{
+	Oid			relid = find_named_table(mesh, side);
+
+	return OidIsValid(relid) && mesh_table_owner(relid) == mesh_table_owner(mesh) ? relid : InvalidOid;
+}
+
+/*
  * The vertex table of a mesh, unlocked and unchecked, and whether it is bound; InvalidOid if there is
  * none.
  */
@@ -255,13 +252,13 @@ find_vertex_table(Oid mesh, bool *bound)
 	Oid			relid = dependency_find(RelationRelationId, mesh, false, is_vertex_table);
 
 	*bound = OidIsValid(relid);
-	return *bound ? relid : find_named_table(mesh, &vertex_side);
+	return *bound ? relid : find_own_table(mesh, &vertex_side);
 }
 
 /*
  * The same for a table of rows. Only that of a restored mesh is found by its name, and all tables of a
  * mesh are bound at once: so once the vertex table is bound, a table of that name belongs to something
- * else. So does a table of another owner: its triggers would run as the one who changes the mesh.
+ * else, unless the owner says otherwise (mesh_adopt).
  */
 static Oid
 find_rows_table(Oid mesh, const SideTable *side, bool *bound)
@@ -271,17 +268,17 @@ find_rows_table(Oid mesh, const SideTable *side, bool *bound)
 	*bound = OidIsValid(relid);
 	if (*bound || OidIsValid(dependency_find(RelationRelationId, mesh, false, is_vertex_table)))
 		return relid;
-	relid = find_named_table(mesh, side);
-	return OidIsValid(relid) && mesh_table_owner(relid) == mesh_table_owner(mesh) ? relid : InvalidOid;
+	return find_own_table(mesh, side);
 }
 
-/* Whether there is such a table that would be the mesh's if it had the mesh's owner. */
-static bool
-is_foreign(Oid mesh, const SideTable *side)
+/*
+ * A table of rows that has the name and the type, but is not part of the mesh: it has another owner, or was
+ * restored alone, or left by an earlier mesh. InvalidOid if there is none.
+ */
+Oid
+mesh_find_namesake(Oid mesh, SideRows rows)
 {
-	Oid			relid = find_named_table(mesh, side);
-
-	return OidIsValid(relid) && mesh_table_owner(relid) != mesh_table_owner(mesh);
+	return OidIsValid(mesh_find_rows_table(mesh, rows)) ? InvalidOid : find_named_table(mesh, &row_sides[rows]);
 }
 
 /* The vertex table of a mesh, unlocked and unchecked; InvalidOid if there is none. */
@@ -371,9 +368,9 @@ mesh_vertex_table(Relation mesh, MeshAccess access)
 		ereport(ERROR,
 				(errcode(ERRCODE_UNDEFINED_TABLE),
 				 errmsg("mesh \"%s\" has no vertex table", RelationGetRelationName(mesh)),
-				 errdetail("There is no table \"%s" VERTEX_TABLE_SUFFIX "\" of type %s beside it.",
+				 errdetail("There is no table \"%s" VERTEX_TABLE_SUFFIX "\" of type %s beside it that has its owner.",
 						   RelationGetRelationName(mesh), VERTEX_PAGE_TYPE),
-				 errhint("After a restore, give the vertex table that name; if it is lost, "
+				 errhint("After a restore, give the vertex table that name and the owner of the mesh; if it is lost, "
 						 "restore it from a backup.")));
 	mesh_check_access(rel, access, mesh);
 	relid = RelationGetRelid(rel);
@@ -385,7 +382,7 @@ mesh_vertex_table(Relation mesh, MeshAccess access)
 		for (int i = 0; i < lengthof(row_sides); i++)
 		{
 			(void) mesh_rows_table(mesh, (SideRows) i, access);
-			is_whole = is_whole && !is_foreign(RelationGetRelid(mesh), &row_sides[i]);
+			is_whole = notice_namesake(RelationGetRelid(mesh), (SideRows) i) && is_whole;
 		}
 		if (is_whole)
 		{
@@ -399,22 +396,27 @@ mesh_vertex_table(Relation mesh, MeshAccess access)
 	return relid;
 }
 
-/* Makes DROP of the mesh drop the object as well. */
+/*
+ * Binds tables of rows that were restored alone and have the owner of the mesh, as far as the user may. `lines`, `regions`: the
+ * mesh has some. It cannot be known whether it had steps or levels.
+ */
 void
-mesh_bind_object(Oid class, Oid object, Oid mesh)
+mesh_adopt(Relation mesh, bool lines, bool regions)
 {
-	ObjectAddress dependent;
-	ObjectAddress referenced;
+	for (int i = 0; i < lengthof(row_sides); i++)
+	{
+		bool		wanted = i == MESH_LINES ? lines : i == MESH_REGIONS ? regions : true;
+		Relation	rel = wanted ? open_side_table(mesh_find_namesake(RelationGetRelid(mesh), (SideRows) i), MESH_WRITE) : NULL;
 
-	ObjectAddressSet(dependent, class, object);
-	ObjectAddressSet(referenced, RelationRelationId, mesh);
-	recordDependencyOn(&dependent, &referenced, DEPENDENCY_AUTO);
-}
-
-void
-mesh_bind_table(Oid mesh, Oid table)
-{
-	mesh_bind_object(RelationRelationId, table, mesh);
+		if (rel == NULL)
+			continue;
+		if (rel->rd_rel->relowner == mesh->rd_rel->relowner && may_bind(mesh, RelationGetRelid(rel), MESH_WRITE))
+			mesh_bind_table(RelationGetRelid(mesh), RelationGetRelid(rel));
+		relation_close(rel, NoLock);
+	}
+	CommandCounterIncrement();
+	if (on_restored != NULL)
+		on_restored(mesh);
 }
 
 /* The mesh that a trigger is bound to; InvalidOid if none. */

@@ -66,6 +66,8 @@ extern void mesh_require_sharded(Oid relid);
 extern Oid	mesh_table_owner(Oid relid);
 extern Oid	mesh_find_vertex_table(Oid mesh);
 extern Oid	mesh_find_rows_table(Oid mesh, SideRows rows);
+extern Oid	mesh_find_namesake(Oid mesh, SideRows rows);
+extern void mesh_adopt(Relation mesh, bool lines, bool regions);
 extern Oid	mesh_vertex_table(Relation mesh, MeshAccess access);
 extern void mesh_bind_object(Oid class, Oid object, Oid mesh);
 extern void mesh_bind_table(Oid mesh, Oid table);

@@ -8,9 +8,11 @@
  */
 #include "postgres.h"
 
+#include "access/htup_details.h"
 #include "access/parallel.h"
 #include "access/xlog.h"
 #include "catalog/pg_am.h"
+#include "catalog/pg_class.h"
 #include "catalog/pg_type.h"
 #include "executor/executor.h"
 #include "lib/stringinfo.h"
@@ -20,6 +22,7 @@
 #include "utils/acl.h"
 #include "utils/inval.h"
 #include "utils/rls.h"
+#include "utils/syscache.h"
 
 #include "pg/mesh/mesh_access.h"
 #include "pg/store/page_index.h"
@@ -208,4 +211,19 @@ mesh_unlock_for_session(MeshLocks *locks)
 {
 	UnlockRelationIdForSession(&locks->vertices, locks->vertices_mode);
 	UnlockRelationIdForSession(&locks->simplices, ExclusiveLock);
+}
+
+/* The owner of any table; InvalidOid if it no longer exists. */
+Oid
+mesh_table_owner(Oid relid)
+{
+	HeapTuple	tuple = SearchSysCache1(RELOID, ObjectIdGetDatum(relid));
+	Oid			owner = InvalidOid;
+
+	if (HeapTupleIsValid(tuple))
+	{
+		owner = ((Form_pg_class) GETSTRUCT(tuple))->relowner;
+		ReleaseSysCache(tuple);
+	}
+	return owner;
 }

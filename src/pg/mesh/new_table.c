@@ -6,6 +6,7 @@
 #include "postgres.h"
 
 #include "access/xact.h"
+#include "catalog/dependency.h"
 #include "catalog/namespace.h"
 #include "catalog/pg_class.h"
 #include "commands/comment.h"
@@ -129,6 +130,25 @@ new_table_describe(Oid table, const char *what, Oid row, int columns)
 
 /* ---- Tables beside a mesh -------------------------------------------------------------- */
 
+/* Makes DROP of the mesh drop the object as well. It may have done so before. */
+void
+mesh_bind_object(Oid class, Oid object, Oid mesh)
+{
+	ObjectAddress dependent;
+	ObjectAddress referenced;
+
+	ObjectAddressSet(dependent, class, object);
+	ObjectAddressSet(referenced, RelationRelationId, mesh);
+	(void) deleteDependencyRecordsForSpecific(class, object, DEPENDENCY_AUTO, RelationRelationId, mesh);
+	recordDependencyOn(&dependent, &referenced, DEPENDENCY_AUTO);
+}
+
+void
+mesh_bind_table(Oid mesh, Oid table)
+{
+	mesh_bind_object(RelationRelationId, table, mesh);
+}
+
 static void
 check_may_make(Relation mesh, const NewSideTable *made, const char *name)
 {
@@ -147,7 +167,13 @@ check_may_make(Relation mesh, const NewSideTable *made, const char *name)
 				 errdetail("The table \"%s\" would belong to it; names have at most %d bytes.", name,
 						   NAMEDATALEN - 1),
 				 errhint("Rename the mesh and its vertex table.")));
-	new_table_check_name(RelationGetNamespace(mesh), name);
+	if (OidIsValid(get_relname_relid(name, RelationGetNamespace(mesh))))
+		ereport(ERROR,
+				(errcode(ERRCODE_DUPLICATE_TABLE),
+				 errmsg("relation \"%s\" already exists", name),
+				 errdetail("It is not part of mesh \"%s\", whose first %s would make a table of that name.", mesh_name, made->contents),
+				 errhint("If it was restored alone, the owner of both binds it by abacus_set_srid() with the SRID that the mesh has. "
+						 "Otherwise rename or drop it.")));
 }
 
 /* Runs CREATE as the owner of the mesh, who will own the table as well. */

@@ -1,8 +1,10 @@
 /*
- * notices.c: notices of unexpected things that are not errors: points that equal a vertex, and
- * points that span no simplex.
+ * notices.c: notices of unexpected things that are not errors: points that equal a vertex, points that span no
+ * simplex, and tables with the name of one that the mesh may have.
  */
 #include "postgres.h"
+
+#include "utils/lsyscache.h"
 
 #include "pg/mesh/notices.h"
 
@@ -60,4 +62,22 @@ notice_waiting(const Writer *writer)
 
 	if (facts->census.vertices == 0)
 		notice_waiting_points(name_of(writer), facts->form.dimension, facts->census.staged - facts->census.inserted);
+}
+
+/* Reports a table that may be taken for one of the mesh, and is not; true if there is no such table. */
+bool
+notice_namesake(Oid mesh, SideRows rows)
+{
+	Oid			table = mesh_find_namesake(mesh, rows);
+	bool		is_own = OidIsValid(table) && mesh_table_owner(table) == mesh_table_owner(mesh);
+
+	if (!OidIsValid(table))
+		return true;
+	ereport(NOTICE,
+			(errmsg("table \"%s\" is not part of mesh \"%s\"", get_rel_name(table), get_rel_name(mesh)),
+			 is_own ? errdetail("It was restored alone, or an earlier mesh has left it.")
+			 : errdetail("It has another owner."),
+			 is_own ? errhint("If it is the mesh's, call abacus_set_srid() with the SRID that the mesh has, which binds it.")
+			 : errhint("If it is the mesh's, give it the owner of the mesh. Otherwise rename one of them.")));
+	return false;
 }

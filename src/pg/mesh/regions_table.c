@@ -49,8 +49,8 @@ regions_table_require(Relation mesh, MeshAccess access)
 				 errmsg("mesh \"%s\" has regions, but no table of regions", RelationGetRelationName(mesh)),
 				 errdetail("There is no table \"%s" REGIONS_TABLE_SUFFIX "\" of type %s beside it that has its owner.",
 						   RelationGetRelationName(mesh), REGION_PART_TYPE),
-				 errhint("After a restore, give the table of regions that name; if it is lost, "
-						 "restore it from a backup.")));
+				 errhint("After a restore, give the table of regions that name and the owner of the mesh, and call "
+						 "abacus_set_srid() with the SRID that the mesh has; if it is lost, restore it from a backup.")));
 	return lines_table_name(table);
 }
 

@@ -79,7 +79,7 @@ tell_of_unknown(const Change *change, uint64 ids, uint64 gone)
 static uint64
 remove_lines(Change *change)
 {
-	Oid			table = mesh_rows_table(mesh_of(change), MESH_LINES, MESH_WRITE);
+	Oid			table = lines_table_of(mesh_of(change), change->writer.header->facts.census.lines);
 	uint64		gone = 0;
 	int64		soft = 0;
 	Datum		ids;

@@ -10,6 +10,7 @@
 #include "pg/base/sql_function.h"
 #include "pg/lines/named_rows.h"
 #include "pg/mesh/lines_table.h"
+#include "pg/mesh/notices.h"
 #include "pg/steps/step.h"
 
 SQL_FUNCTION(abacus_sql_steps);
@@ -29,7 +30,10 @@ abacus_sql_steps(PG_FUNCTION_ARGS)
 	table = mesh_rows_table(mesh, MESH_STEPS, MESH_READ);
 	table_close(mesh, NoLock);
 	if (!OidIsValid(table))
+	{
+		(void) notice_namesake(PG_GETARG_OID(0), MESH_STEPS);
 		PG_RETURN_NULL();
+	}
 	SPI_connect();
 	level = plain_names_begin(false);
 	query_into(set->setResult, psprintf(query, lines_table_name(table), ""));
