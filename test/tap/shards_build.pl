@@ -48,6 +48,12 @@ for my $isolation ('read committed', 'repeatable read')
 	is($err, '', 'one that is dropped ends first');
 	is($node->safe_psql("s$_", "SELECT count(*) FROM pg_class WHERE relname LIKE 'abacus\\__%' AND relkind = 'r'"), 0, "nothing is left on server $_") for 1 .. 2;
 }
+{
+	my $call = sprintf("dblink_exec('host=%s port=%s dbname=postgres', \$\$CALL abacus_shard_build('seen', '%s')\$\$)", $node->host, $node->port, $builds[0] =~ s/12000/600/r);
+	sql("SELECT abacus_shard_create('seen', '{s1,s2}'); SELECT $call");
+	sql("BEGIN ISOLATION LEVEL REPEATABLE READ; SELECT FROM pg_class LIMIT 1; SELECT $call; SELECT abacus_shard_drop('seen'); COMMIT");
+	is($node->safe_psql("s$_", "SELECT count(*) FROM pg_class WHERE relname LIKE 'abacus\\__%' AND relkind = 'r'"), 0, "nor of a build that the snapshot does not show, on server $_") for 1 .. 2;
+}
 
 # ---- A mesh is dropped with its transaction ------------------------------------------------------------------
 

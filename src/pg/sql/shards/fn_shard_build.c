@@ -22,6 +22,7 @@
 #include "utils/builtins.h"
 #include "utils/inval.h"
 #include "utils/lsyscache.h"
+#include "utils/snapmgr.h"
 
 #include "pg/base/commits.h"
 #include "pg/base/sql_function.h"
@@ -424,8 +425,10 @@ abacus_sql_shard_drop(PG_FUNCTION_ARGS)
 	PreventCommandIfReadOnly("abacus_shard_drop()");
 	SPI_connect();
 	lock = lock_table(relid);
+	PushActiveSnapshot(GetLatestSnapshot());	/* with what a build has left that ended after ours was taken */
 	while (generation_read_after(relid, generation.number, &generation))
 		shard_drop(&generation);
+	PopActiveSnapshot();
 	utility_run(psprintf("DROP TABLE %s", lines_table_name(relid)));
 	UnlockRelationIdForSession(&lock, ShareUpdateExclusiveLock);
 	SPI_finish();
