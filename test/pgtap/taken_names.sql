@@ -128,7 +128,15 @@ SELECT is(count(*), 5::bigint, 'their lines are there') FROM abacus_lines('held.
 SELECT is(abacus_level('held.lined', 10), 'held.lined_level_1'::regclass, 'their level is');
 SELECT results_eq($$SELECT step FROM abacus_steps('held.lined')$$, 'VALUES (1::bigint)', 'their step is');
 SELECT is_empty($$SELECT * FROM abacus_check('held.lined')$$, 'the mesh is sound');
+GRANT SELECT, INSERT, UPDATE, DELETE ON held.lined, held.lined_vertices TO pgtap_names_other;
+SET ROLE pgtap_names_other;
+SELECT lives_ok($$SELECT abacus_set_srid('held.lined', abacus_srid('held.lined'))$$, 'who may change the mesh alone still sets its SRID');
+SET ROLE pgtap_names_owner;
+DROP TABLE held.lined_regions;
+SELECT throws_ok($$SELECT abacus_region('held.lined', 'VALUES (''yard'', 1)')$$, '42P01', NULL, 'regions are not added to those that were dropped');
+CREATE TABLE held.line AS SELECT 2::bigint AS line, 1 AS position, 1::bigint AS point;
 DROP TABLE held.lined_lines;
+SELECT throws_ok($$SELECT abacus_track_lines('held.lined', 'held.line')$$, '42P01', NULL, 'lines that were dropped do not follow a table');
 SELECT throws_ok($$SELECT abacus_constrain('held.lined', 'VALUES (2, 1, 1), (2, 2, 5)')$$, '42P01', NULL, 'lines are not added to those that were dropped');
 SELECT throws_ok($$SELECT abacus_unconstrain('held.lined', 'VALUES (1)')$$, '42P01', NULL, 'nor taken from them');
 

@@ -155,7 +155,8 @@ add_regions(Change *change, const NamedRows *given)
 {
 	Relation	mesh = mesh_of(change);
 	char	   *lines = lines_table_name(lines_table_require(mesh, MESH_WRITE));
-	char	   *table = lines_table_name(regions_table_make(mesh));
+	char	   *table = change->writer.header->facts.census.regions > 0 ? regions_table_require(mesh, MESH_WRITE)
+		: lines_table_name(regions_table_make(mesh));
 	NamedRows  *parts;
 	int32		first;
 	uint64		count;

@@ -35,8 +35,8 @@
 
 #include "pg/base/dependency.h"
 #include "pg/mesh/mesh.h"
-#include "pg/mesh/notices.h"
 #include "pg/mesh/mesh_access.h"
+#include "pg/mesh/notices.h"
 #include "pg/port/port.h"
 
 /* Whether `type` is this extension's row type with that name; remembers the last yes. */
@@ -397,12 +397,14 @@ mesh_vertex_table(Relation mesh, MeshAccess access)
 }
 
 /*
- * Binds tables of rows that were restored alone and have the owner of the mesh, as far as the user may. `lines`, `regions`: the
- * mesh has some. It cannot be known whether it had steps or levels.
+ * Binds tables of rows that were restored alone, if the user owns them and the mesh. `lines`, `regions`: the mesh has some. It
+ * cannot be known whether it had steps or levels.
  */
 void
 mesh_adopt(Relation mesh, bool lines, bool regions)
 {
+	if (!object_ownercheck(RelationRelationId, RelationGetRelid(mesh), GetUserId()))
+		return;
 	for (int i = 0; i < lengthof(row_sides); i++)
 	{
 		bool		wanted = i == MESH_LINES ? lines : i == MESH_REGIONS ? regions : true;

@@ -24,8 +24,10 @@ require_lines_table(const Change *change)
 {
 	Relation	mesh = mesh_pages(change->writer.host)->simplices.heap;
 	bool		is_new;
-	Oid			table = lines_table_make(mesh, &is_new);
+	Oid			table;
 
+	(void) lines_table_of(mesh, change->writer.header->facts.census.lines);
+	table = lines_table_make(mesh, &is_new);
 	if (is_new)
 		lines_table_index(mesh);
 	lines_table_index_made(mesh);
