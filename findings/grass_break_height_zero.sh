@@ -12,9 +12,7 @@
 set -euo pipefail
 . "$(dirname "$0")/tools.bash"
 
-unpack grass-core=8.2.1-1
-export GISBASE=$tmp/usr/lib/grass82 GRASS_PYTHON=/usr/bin/python3 HOME=$tmp
-export LD_LIBRARY_PATH=$GISBASE/lib:$libraries PROJ_DATA=$tmp/usr/share/proj GDAL_DATA=$tmp/usr/share/gdal
+unpack_grass
 cd "$tmp"
 
 # A line from corner to corner, and one that crosses it or ends on it: break LINE LINE, each as x y z x y z.

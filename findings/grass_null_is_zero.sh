@@ -11,9 +11,7 @@
 set -euo pipefail
 . "$(dirname "$0")/tools.bash"
 
-unpack grass-core=8.2.1-1
-export GISBASE=$tmp/usr/lib/grass82 GRASS_PYTHON=/usr/bin/python3 HOME=$tmp
-export LD_LIBRARY_PATH=$GISBASE/lib:$libraries PROJ_DATA=$tmp/usr/share/proj GDAL_DATA=$tmp/usr/share/gdal
+unpack_grass
 cd "$tmp"
 
 # What is made of the points, and of those with a height: the surface at the third point and half-way to the second, and cells.

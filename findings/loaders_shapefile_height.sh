@@ -2,7 +2,7 @@
 # Shapefiles with heights but without measures are read as other places by loaders.gl.
 #
 # Version     @loaders.gl/shapefile 4.5.2, @loaders.gl/core 4.5.4 (npm); GDAL 3.6.2 (Debian 12: gdal-bin 3.6.2+dfsg-1+b2)
-# Behaviour   Shapes of the types PointZ, PolyLineZ, PolygonZ and MultiPointZ have measures only if they want to, and GDAL writes
+# Behaviour   Shapes of the types PointZ, PolyLineZ, PolygonZ and MultiPointZ may come without measures, and GDAL writes
 #             none where a layer has none. loaders.gl then still counts four numbers a vertex in an array of three: x of
 #             the second vertex becomes the measure of the first one, the height of the second its y, and so on. Vertices of a polygon, which
 #             are turned round, are NaN. There is no error.
@@ -13,7 +13,7 @@ set -euo pipefail
 . "$(dirname "$0")/tools.bash"
 
 command -v npm >/dev/null || exit 77
-unpack gdal-bin=3.6.2+dfsg-1+b2 libgdal32=3.6.2+dfsg-1+b2 gdal-data=3.6.2+dfsg-1
+unpack_gdal
 npm install --silent --no-audit --no-fund --prefix "$tmp" @loaders.gl/shapefile@4.5.2 @loaders.gl/core@4.5.4 >&2 || exit 77
 
 # The loader asks for the .shp, .dbf and .prj one by one.
@@ -33,11 +33,10 @@ JAVASCRIPT
 read_shape() {
     rm -f "$tmp"/shapes.*
     printf 'id,WKT\n1,"%s"\n' "$1" >"$tmp/in.csv"
-    LD_LIBRARY_PATH=$libraries GDAL_DATA=$tmp/usr/share/gdal "$tmp/usr/bin/ogr2ogr" "$tmp/shapes.shp" "$tmp/in.csv" "${@:2}"
+    "$tmp/usr/bin/ogr2ogr" "$tmp/shapes.shp" "$tmp/in.csv" "${@:2}"
     node "$tmp/read.mjs" "$tmp"
 }
 
-unset CPL_DEBUG
 line="LINESTRING Z (0 0 5, 1 0 6, 1 1 7)"
 expect "a line with heights" "LineString (0 0 5 1) (0 6 1 1) (7 NaN NaN NaN)" "$(read_shape "$line")"
 expect "in the plane" "LineString (0 0) (1 0) (1 1)" "$(read_shape "$line" -dim XY)"

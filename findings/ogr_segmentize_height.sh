@@ -10,9 +10,7 @@
 set -euo pipefail
 . "$(dirname "$0")/tools.bash"
 
-unpack gdal-bin=3.6.2+dfsg-1+b2 libgdal32=3.6.2+dfsg-1+b2 gdal-data=3.6.2+dfsg-1
-unset CPL_DEBUG
-export GDAL_DATA=$tmp/usr/share/gdal LD_LIBRARY_PATH=$libraries
+unpack_gdal
 expect "version" "GDAL 3.6.2, released 2023/01/02" "$("$tmp/usr/bin/ogr2ogr" --version)"
 
 # made WKT ARGUMENT...: what ogr2ogr makes of the line.

@@ -11,7 +11,7 @@ set -euo pipefail
 . "$(dirname "$0")/tools.bash"
 
 command -v npm >/dev/null || exit 77
-unpack gdal-bin=3.6.2+dfsg-1+b2 libgdal32=3.6.2+dfsg-1+b2 gdal-data=3.6.2+dfsg-1
+unpack_gdal
 npm install --silent --no-audit --no-fund --prefix "$tmp" shpjs@6.2.0 shapefile@0.6.6 >&2 || exit 77
 
 cat >"$tmp/read.mjs" <<'JAVASCRIPT'
@@ -24,8 +24,6 @@ console.log(JSON.stringify(parseShp(new DataView(bytes.buffer, bytes.byteOffset,
 console.log(await open(bytes).then(() => "no error", (error) => error.message));
 JAVASCRIPT
 
-unset CPL_DEBUG
-export LD_LIBRARY_PATH=$libraries GDAL_DATA=$tmp/usr/share/gdal
 printf 'id,WKT\n1,"TIN Z (((100 200 5, 110 200 6, 100 220 7, 100 200 5)), ((110 220 8, 100 220 7, 110 200 6, 110 220 8)))"\n' >"$tmp/in.csv"
 "$tmp/usr/bin/ogr2ogr" "$tmp/tin.shp" "$tmp/in.csv" -lco SHPT=MULTIPATCH
 expect "as GDAL reads it" "TIN Z (((100 200 5,110 200 6,100 220 7,100 200 5)),((110 220 8,100 220 7,110 200 6,110 220 8)))" \

@@ -28,6 +28,20 @@ unpack_postgis() {
     done
 }
 
+# unpack_gdal: GDAL 3.6.2, whose programs are in $tmp/usr/bin.
+unpack_gdal() {
+    unpack gdal-bin=3.6.2+dfsg-1+b2 libgdal32=3.6.2+dfsg-1+b2 gdal-data=3.6.2+dfsg-1
+    unset CPL_DEBUG
+    export GDAL_DATA=$tmp/usr/share/gdal LD_LIBRARY_PATH=$libraries
+}
+
+# unpack_grass: GRASS GIS 8.2.1, started by PATH=$tmp/usr/bin:$PATH grass.
+unpack_grass() {
+    unpack grass-core=8.2.1-1
+    export GISBASE=$tmp/usr/lib/grass82 GRASS_PYTHON=/usr/bin/python3 HOME=$tmp
+    export LD_LIBRARY_PATH=$GISBASE/lib:$libraries PROJ_DATA=$tmp/usr/share/proj GDAL_DATA=$tmp/usr/share/gdal
+}
+
 # unpack_r [NAME=VERSION...]: R 4.2.2 and these packages of it, for `run_r FILE`. R is told where it lies.
 unpack_r() {
     unpack r-base-core=4.2.2.20221110-2 "$@"
