@@ -141,6 +141,16 @@ SELECT is((SELECT count(*) FROM (SELECT ST_MakeEnvelope(0.1 * (i * 37 % 150), 0.
 SELECT is((SELECT round(sum(ST_Area(geom))::numeric, 9) FROM abacus_contours_geom('steps', 2.5, polygonize => true, bounds => ST_MakeEnvelope(2.1, 2.1, 7.7, 9.9), within => 'POLYGON((5 0.3, 20 0.3, 20 20, 5 20, 5 0.3))')), round(2.7 * 7.8, 9), 'and both');
 SELECT is((SELECT count(*) FROM abacus_contours_geom('steps', 2.5, polygonize => true, bounds => ST_MakeEnvelope(2.1, 2.1, 4.7, 9.9), within => 'POLYGON((5 0.3, 20 0.3, 20 20, 5 20, 5 0.3))')), 0::bigint, 'or none, where they do not meet');
 SELECT is((SELECT round(sum(ST_Area(geom))::numeric, 9) FROM abacus_clip('steps', ST_MakeEnvelope(2, 2, 8, 8), within => 'POLYGON((3.5 3.1, 3.9 3.1, 3.9 3.2, 3.5 3.1))')), 0.02, 'triangles are clipped by both');
+SELECT abacus_constrain('steps', 'VALUES (1, 1, 303), (1, 2, 903), (1, 3, 906), (1, 4, 306), (1, 5, 303)');
+SELECT abacus_region('steps', $$VALUES ('field', 1)$$);
+SELECT is((SELECT round(sum(ST_Area(geom))::numeric, 9) FROM abacus_clip('steps', ST_MakeEnvelope(2, 2, 8, 8.5), within => 'field')), 15.000000000, 'or by a region');
+SELECT throws_ok(format('SELECT * FROM abacus_clip(%L, ST_MakeEnvelope(2, 2, 8, 8), within => %L)', 'steps', within), state, message, message)
+    FROM (VALUES ('lake', '42704', 'mesh "steps" has no region "lake"'),
+        ('SRID=4326;POLYGON((30 30, 40 30, 40 40, 30 30))', '22023', 'within has SRID 4326, but the mesh has none')) AS v (within, state, message);
+-- with arguments that the planner knows
+SELECT ok(ST_Equals(_abacus_part_within('steps', ST_MakeEnvelope(2, 2, 8, 8), 'field'), ST_MakeEnvelope(2, 2, 8, 8)), 'a name is no polygon');
+SELECT throws_ok(format('SELECT _abacus_part_within(%L, ST_MakeEnvelope(2, 2, 8, 8), %L)', 'steps', within), '22023', 'within is not a polygon that can be used', 'nor is ' || within)
+    FROM (VALUES ('POLYGON((0 0, 5 5, 0 5, 5 0, 0 0))'), ('POLYGON((1 1, 20 1, 20 20, 1 20))')) AS v (within);
 
 -- lines of sight, pictures, tiles
 SELECT abacus_triangulate('ridge', 'SELECT id, x, y, CASE WHEN x = 10 THEN 9 ELSE 0 END AS h FROM point');

@@ -21,11 +21,12 @@
 #include "pg/mesh/mesh_cache.h"
 #include "pg/postgis/geometry_errors.h"
 #include "pg/postgis/geometry_write.h"
+#include "pg/sql/arguments/extent_arguments.h"
 #include "pg/sql/arguments/line.h"
 #include "pg/sql/postgis/geometry_place.h"
 #include "pg/sql/rows/result.h"
 
-SQL_FUNCTION(abacus_sql_is_polygon);
+SQL_FUNCTION(abacus_sql_polygon_text);
 SQL_FUNCTION(abacus_sql_geometry_facts);
 SQL_FUNCTION(abacus_sql_geometry_corner);
 SQL_FUNCTION(abacus_sql_geometry_area);
@@ -105,19 +106,18 @@ abacus_sql_geometry_area(PG_FUNCTION_ARGS)
 	PG_RETURN_DATUM(PG_GETARG_DATUM(1));
 }
 
-/*
- * _abacus_is_polygon(within text) -> boolean: whether it is a geometry, and not the name of a region;
- * an error if the geometry is no valid polygon
- */
+/* _abacus_polygon_text(mesh regclass, within text) -> text: within, as it is; NULL if it is the name of a region */
 Datum
-abacus_sql_is_polygon(PG_FUNCTION_ARGS)
+abacus_sql_polygon_text(PG_FUNCTION_ARGS)
 {
-	char	   *within = text_to_cstring(PG_GETARG_TEXT_PP(0));
+	Oid			mesh = PG_GETARG_OID(0);
+	const abacus_header *header = &mesh_cache_get(mesh)->header;
+	abacus_extent extent = {0};
 
-	if (!area_text_is(within))
-		PG_RETURN_BOOL(false);
-	(void) area_text_read("within", within);
-	PG_RETURN_BOOL(true);
+	extent_within(fcinfo, 1, mesh, &header->facts, header->stamp, NULL, &extent);
+	if (extent.area == NULL)
+		PG_RETURN_NULL();
+	PG_RETURN_DATUM(PG_GETARG_DATUM(1));
 }
 
 /* _abacus_place(mesh regclass, point geometry) -> float8[]: its coordinates; NULL for an empty point */
